@@ -1,0 +1,241 @@
+// bounce run: from a scene to a directory of results.
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "driver/commands.hpp"
+#include "driver/extended_xyz.hpp"
+#include "driver/files.hpp"
+#include "driver/interrupt.hpp"
+#include "driver/monitor_csv.hpp"
+#include "driver/progress.hpp"
+#include "driver/run_directory.hpp"
+#include "driver/run_loop.hpp"
+#include "driver/run_record.hpp"
+#include "driver/scene_file.hpp"
+#include "driver/state_file.hpp"
+#include "verify/listing_frame.hpp"
+#include "verify/oracle_stepper.hpp"
+
+namespace bounce {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int exit_unstable = 3;
+constexpr int exit_interrupted = 130;
+
+struct Options {
+  std::string scene;
+  std::string out;
+  std::vector<std::string> settings;
+  std::optional<std::int64_t> steps;
+  std::optional<double> end;
+  PlanRequest request;
+  std::string initial;
+  std::string final_state;
+  bool listing_frames = false;
+  bool force = false;
+  bool quiet = false;
+
+  [[nodiscard]] fs::path directory() const {
+    return out.empty() ? fs::path("runs") / fs::path(scene).stem() : fs::path(out);
+  }
+};
+
+// The scene with all that the command line changes in it.
+SceneFile load_scene(const Options& options) {
+  SceneFile file = SceneFile::find(options.scene);
+  for (const std::string& setting : options.settings) file.set(setting);
+  if (options.end) file.end_at(*options.end, "--t-end");
+  if (options.steps) {
+    if (*options.steps < 1) {
+      throw InputError(fmt::format("--steps {}: allowed is 1 or more", *options.steps));
+    }
+    file.end_at(static_cast<double>(*options.steps) * file.scene().time.step, "--steps");
+  }
+  if (!options.initial.empty()) file.note_origin("initial state", options.initial);
+  const Scene scene = file.scene();
+  if (scene.steps_until(scene.time.end) < 1) {
+    throw file.explain(SceneError("time.end", fmt::format("{}", scene.time.end),
+                                  fmt::format("at least one step, {} s", scene.time.step)));
+  }
+  return file;
+}
+
+Problem prepare(const SceneFile& file, const Options& options) {
+  std::optional<State> start;
+  if (!options.initial.empty()) start = read_state(options.initial);
+  try {
+    return make_problem(file.scene(), start);
+  } catch (const SceneError& error) {
+    throw file.explain(error);
+  }
+}
+
+// BAL4.OUT1 at the first million steps and so on, BAL4.OUT at the end. As in the listing, the end
+// has no numbered file of its own beyond the nineteenth.
+void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end,
+                          const State& state) {
+  constexpr std::int64_t million = 1'000'000;
+  constexpr std::int64_t numbered_files = 19;
+  const auto write = [&](const std::string& name) {
+    std::ofstream out(folder / name);
+    write_listing_frame(out, state);
+    out.close();
+    if (!out) throw std::runtime_error((folder / name).string() + ": cannot be written");
+  };
+  if (step % million == 0 && (step / million <= numbered_files || !is_end)) {
+    write(fmt::format("BAL4.OUT{}", step / million));
+  }
+  if (is_end) write("BAL4.OUT");
+}
+
+// Runs and fills the directory with all that is written on the way.
+RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
+                   Stepper& stepper, const fs::path& folder) {
+  const Schedule schedule(scene, options.listing_frames);
+  const auto time = [&scene](std::int64_t step) {
+    return static_cast<double>(step) * scene.time.step;
+  };
+  MonitorCsv monitor(folder / "monitor.csv");
+  ExtendedXyz frames(folder / "frames.extxyz", static_cast<std::size_t>(scene.ball.per_ring));
+  Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
+                    scene.time.step);
+  RunHooks hooks;
+  hooks.sample = [&](std::int64_t step, const Sample& sample) {
+    monitor.write(time(step), sample);
+  };
+  hooks.frame = [&](std::int64_t step, const State& state) {
+    frames.write(step, time(step), state);
+  };
+  hooks.listing_frame = [&](std::int64_t step, const State& state) {
+    write_listing_frames(folder, step, step == schedule.end(), state);
+  };
+  hooks.progress = [&](std::int64_t step) { progress.update(step); };
+  hooks.stop = interrupted;
+  RunResult result = run_loop(stepper, problem, schedule, hooks);
+  monitor.close();
+  frames.close();
+  return result;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.close();
+}
+
+void print_summary(const RunRecord& record, const Options& options) {
+  const Plan& plan = record.plan;
+  const RunResult& result = record.result;
+  fmt::print("{}\n", record.scene.title.empty() ? record.scene_name : record.scene.title);
+  fmt::print("plan: kernel {}, vector {}, {} lane(s), {} thread(s); law {}; walls {}\n",
+             plan.kernel, name_of(plan.vector), plan.lanes, plan.threads, plan.law, plan.walls);
+  if (!plan.left_out.empty()) fmt::print("left out: {}\n", fmt::join(plan.left_out, ", "));
+  fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
+             record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
+  fmt::print("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
+  fmt::print("state hash: {:016x}\n", state_hash(result.last));
+  fmt::print("files: {}\n", options.directory().string());
+}
+
+// Says on stderr why a run is not complete; the exit code.
+int report_end(const RunRecord& record, const Options& options) {
+  const fs::path last = options.directory() / "final.csv";
+  switch (record.result.status) {
+    case RunStatus::complete:
+      return 0;
+    case RunStatus::interrupted:
+      fmt::print(stderr,
+                 "bounce: interrupted at step {}; kept what was written, last state in {}\n",
+                 record.result.step, last.string());
+      return exit_interrupted;
+    case RunStatus::unstable:
+      fmt::print(stderr, "bounce: {}\nThe last good state, of step {}, is in {}.\n",
+                 describe_trouble(record.result, record.scene), record.result.step, last.string());
+      return exit_unstable;
+  }
+  return 1;
+}
+
+int run(const Options& options, const std::string& command_line) {
+  const SceneFile file = load_scene(options);
+  check_run_directory(options.directory(), options.force);
+  if (!options.final_state.empty()) check_output_path(options.final_state, options.force);
+  RunRecord record;
+  record.command = command_line;
+  record.scene_name = options.scene;
+  record.initial = options.initial;
+  record.scene = file.scene();
+  record.steps_asked = record.scene.steps_until(record.scene.time.end);
+  const Problem problem = prepare(file, options);
+  record.particles = problem.initial.size();
+  record.bonds = problem.bonds.bonds();
+  const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
+  record.plan = make_plan(problem, options.request, entries);
+  const auto stepper = make_stepper(problem, record.plan, entries);
+
+  RunDirectory directory(options.directory(), options.force);
+  write_text(directory.path() / "scene.toml", to_toml(record.scene));
+  catch_interrupts();
+  record.result = simulate(options, record.scene, problem, *stepper, directory.path());
+  const std::string last = state_csv(record.result.last);
+  write_text(directory.path() / "final.csv", last);
+  write_text(directory.path() / "run.json", run_json(record));
+  directory.publish();
+  if (!options.final_state.empty()) write_file_whole(options.final_state, last);
+  if (!options.quiet) print_summary(record, options);
+  return report_end(record, options);
+}
+
+void add_options(CLI::App& command, Options& options) {
+  command.add_option("SCENE", options.scene, "Built-in scene (see bounce list) or scene file")
+      ->required();
+  command.add_option("-o,--out", options.out, "Directory of the results [runs/SCENE]");
+  add_set_option(command, options.settings);
+  CLI::Option* steps = command.add_option("--steps", options.steps, "Stop after N steps");
+  command.add_option("--t-end", options.end, "Stop at time T, s")->excludes(steps);
+  command.add_option("--kernel", options.request.kernel, "auto, or a kernel of bounce list [auto]");
+  command.add_option("--vector", options.request.vector, "auto, avx2 or avx512 [auto]");
+  command.add_option("--threads", options.request.threads, "1 to 256; 0: as the plan decides [0]");
+  command.add_option(
+      "--initial", options.initial,
+      "Start from FILE: the listing's format (x, y, vx, vy as 4F12.4), or the CSV of "
+      "--final-state");
+  command.add_option("--final-state", options.final_state,
+                     "Write the last state to FILE: CSV, 17 significant digits");
+  command.add_flag("--listing-frames", options.listing_frames,
+                   "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
+  command.add_flag("--force", options.force, "Replace results that exist");
+  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, CommandContext& context) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
+  add_options(*command, *options);
+  command->footer(
+      "The results: scene.toml (all values), run.json (what ran, where, how fast), monitor.csv\n"
+      "(energies and momenta), frames.extxyz (opens in OVITO and ASE), final.csv (last state).\n"
+      "Exit code: 0 complete, 2 bad input, 3 unstable, 130 stopped with Ctrl-C, 1 anything "
+      "else.\n\n"
+      "Examples:\n"
+      "  bounce run example-2\n"
+      "  bounce run example-2 --set law.elasticity=1000 --out runs/soft\n"
+      "  bounce run example-5 --set wall.alpha=1 --set wall.beta=-1 --t-end 10\n"
+      "  bounce run example-1 --kernel oracle --steps 1000000 --listing-frames --force\n"
+      "  bounce run my-ball.toml --initial BALL.DAT --final-state last.csv\n");
+  command->callback(
+      [options, &context] { context.exit_code = run(*options, context.command_line); });
+}
+
+}  // namespace bounce

@@ -1,0 +1,21 @@
+# Writes OUT with the commit of SOURCE, "-dirty" added if its tree has changes; run at each build, and
+# touches the file only when that has changed. No locks: the build must not disturb a commit under way.
+set(ENV{GIT_OPTIONAL_LOCKS} 0)
+execute_process(COMMAND git -C "${SOURCE}" rev-parse --short=12 --verify HEAD
+  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed ERROR_QUIET)
+if(failed OR NOT commit)
+  set(commit "unknown")
+else()
+  execute_process(COMMAND git -C "${SOURCE}" status --porcelain OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(changes)
+    string(APPEND commit "-dirty")
+  endif()
+endif()
+set(text "inline constexpr const char* git_commit = \"${commit}\";\n")
+set(old "")
+if(EXISTS "${OUT}")
+  file(READ "${OUT}" old)
+endif()
+if(NOT text STREQUAL old)
+  file(WRITE "${OUT}" "${text}")
+endif()

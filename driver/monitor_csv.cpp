@@ -1,0 +1,22 @@
+#include "driver/monitor_csv.hpp"
+
+#include <fmt/format.h>
+
+namespace bounce {
+
+MonitorCsv::MonitorCsv(const std::filesystem::path& path) : file_(path) {
+  file_.write(
+      "t,kinetic,bond,gravity,total,px,py,angular_momentum,cx,cy,lowest,smallest_ratio,on_wall\n");
+}
+
+void MonitorCsv::write(double time, const Sample& now) {
+  if (!started_) start_ = now;
+  started_ = true;
+  file_.write(fmt::format("{:.12g},{},{},{},{},{},{},{},{},{},{},{},{}\n", time,
+                          now.kinetic - start_.kinetic, now.bond - start_.bond,
+                          now.gravity - start_.gravity, now.total() - start_.total(),
+                          now.momentum.x, now.momentum.y, now.angular_momentum, now.centre.x,
+                          now.centre.y, now.lowest, now.smallest_ratio, now.on_wall));
+}
+
+}  // namespace bounce

@@ -1,0 +1,27 @@
+// monitor.csv: a run's energies, momenta and shape in the course of time.
+#pragma once
+
+#include <filesystem>
+
+#include "driver/files.hpp"
+#include "verify/monitor.hpp"
+
+namespace bounce {
+
+/// One row a sample. t in s; energies as differences from their values at the start (run.json has
+/// those), so that no digits are lost; momenta, centre of mass and lowest point in cgs; smallest
+/// R/R0 of any bond; number of particles on a wall.
+class MonitorCsv {
+ public:
+  explicit MonitorCsv(const std::filesystem::path& path);
+  /// The first sample written is the start.
+  void write(double time, const Sample& sample);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+  bool started_ = false;
+  Sample start_;
+};
+
+}  // namespace bounce

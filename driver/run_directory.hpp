@@ -1,0 +1,32 @@
+// A run's directory: filled under a temporary name beside its place, and renamed when it is whole.
+#pragma once
+
+#include <filesystem>
+
+namespace bounce {
+
+/// The directory of one run. Removed again if it is not published, so that an error leaves nothing.
+class RunDirectory {
+ public:
+  /// Throws InputError if `target` exists and may not be replaced, or holds no run and would be
+  /// lost, or if a directory cannot be made beside it.
+  RunDirectory(const std::filesystem::path& target, bool replace);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  /// Where to write for now.
+  [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
+  /// Renames it into its place. Throws std::runtime_error naming where the files are if that fails.
+  void publish();
+
+ private:
+  std::filesystem::path target_, partial_;
+  bool replace_;
+  bool keep_ = false;
+};
+
+/// The checks of RunDirectory's constructor alone, to be made before a long preparation.
+void check_run_directory(const std::filesystem::path& target, bool replace);
+
+}  // namespace bounce

@@ -1,0 +1,106 @@
+#include "driver/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "driver/origin.hpp"
+
+namespace bounce {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json plan_json(const Plan& plan) {
+  return {{"kernel", plan.kernel},     {"vector", std::string(name_of(plan.vector))},
+          {"lanes", plan.lanes},       {"threads", plan.threads},
+          {"law", plan.law},           {"walls", plan.walls},
+          {"left_out", plan.left_out}, {"reasons", plan.reasons}};
+}
+
+Json origin_json() {
+  const Origin origin = find_origin();
+  return {{"version", origin.version}, {"commit", origin.commit}, {"compiler", origin.compiler},
+          {"flags", origin.flags},     {"cpu", origin.cpu},       {"cores", origin.cores},
+          {"date", origin.date}};
+}
+
+Json energies_json(const Sample& sample) {
+  return {{"kinetic", sample.kinetic},
+          {"bond", sample.bond},
+          {"gravity", sample.gravity},
+          {"total", sample.total()}};
+}
+
+// Numbers of the listing: from 1.
+Json trouble_json(const RunResult& result, const Scene& scene) {
+  Json json{{"message", describe_trouble(result, scene)}, {"step", result.trouble_step}};
+  const Trouble& trouble = *result.trouble;
+  if (trouble.particle >= 0) json["particle"] = trouble.particle + 1;
+  if (trouble.bond_first >= 0) json["bond"] = {trouble.bond_first + 1, trouble.bond_second + 1};
+  return json;
+}
+
+}  // namespace
+
+std::string name_of(RunStatus status) {
+  switch (status) {
+    case RunStatus::complete:
+      return "complete";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::unstable:
+      break;
+  }
+  return "unstable";
+}
+
+std::string describe_trouble(const RunResult& result, const Scene& scene) {
+  const Trouble& trouble = *result.trouble;
+  std::string text =
+      fmt::format("unstable at step {} (t = {:.9g} s): {}", result.trouble_step,
+                  static_cast<double>(result.trouble_step) * scene.time.step, trouble.what);
+  // The watch's sentence names what it is about; the rest is added.
+  const auto lacks = [&trouble](const char* word) {
+    return trouble.what.find(word) == std::string::npos;
+  };
+  if (trouble.particle >= 0 && lacks("particle ")) {
+    text += fmt::format("; particle {}", trouble.particle + 1);
+  }
+  if (trouble.bond_first >= 0 && lacks("bond ")) {
+    text += fmt::format("; bond {}-{}", trouble.bond_first + 1, trouble.bond_second + 1);
+  }
+  return text;
+}
+
+double steps_per_second(const RunResult& result) {
+  return result.steps_timed > 0 && result.seconds > 0.0
+             ? static_cast<double>(result.steps_timed) / result.seconds
+             : 0.0;
+}
+
+std::string run_json(const RunRecord& record) {
+  const RunResult& result = record.result;
+  Json json{{"title", record.scene.title},
+            {"scene", record.scene_name},
+            {"initial", record.initial.empty() ? Json() : Json(record.initial)},
+            {"command", record.command},
+            {"status", name_of(result.status)}};
+  if (result.trouble) json["trouble"] = trouble_json(result, record.scene);
+  json["steps"] = result.step;
+  json["steps_asked"] = record.steps_asked;
+  json["time"] = static_cast<double>(result.step) * record.scene.time.step;
+  json["state_hash"] = fmt::format("{:016x}", state_hash(result.last));
+  json["wall_seconds"] = result.seconds;
+  json["steps_per_second"] = steps_per_second(result);
+  json["particles"] = record.particles;
+  json["bonds"] = record.bonds;
+  json["method"] = record.scene.time.method;
+  json["plan"] = plan_json(record.plan);
+  json["energies_at_start"] = energies_json(result.start);
+  json["origin"] = origin_json();
+  // Names and paths need not be UTF-8; what is not is replaced.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace bounce

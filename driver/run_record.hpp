@@ -1,0 +1,35 @@
+// run.json: what ran, where, how fast, and to which end.
+#pragma once
+
+#include <string>
+
+#include "driver/run_loop.hpp"
+#include "kernels/model/scene.hpp"
+#include "kernels/stepping/plan.hpp"
+
+namespace bounce {
+
+/// All that run.json tells.
+struct RunRecord {
+  std::string command;     ///< the command line
+  std::string scene_name;  ///< built-in name or file
+  std::string initial;     ///< file of the initial state, or "" for the scene's ball
+  Scene scene;
+  Plan plan;
+  std::size_t particles = 0, bonds = 0;
+  std::int64_t steps_asked = 0;
+  RunResult result;
+};
+
+/// "complete", "interrupted" or "unstable".
+std::string name_of(RunStatus status);
+
+/// One sentence naming step, time, particle and bond of an unstable run.
+std::string describe_trouble(const RunResult& result, const Scene& scene);
+
+/// Steps a second of wall time; 0 if none were taken.
+double steps_per_second(const RunResult& result);
+
+std::string run_json(const RunRecord& record);
+
+}  // namespace bounce

@@ -1,0 +1,80 @@
+#include "kernels/model/ball.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace bounce {
+namespace {
+
+// The author's 2 pi/120 and pi/120, as printed.
+constexpr double listing_spacing = 0.05235987755;
+constexpr double listing_stagger = 0.02617993878;
+constexpr std::int64_t listing_per_ring = 120;
+
+double angle(const BallSpec& spec, std::size_t ring, std::int64_t column) {
+  const bool staggered = ring % 2 == 1;
+  const auto i = static_cast<double>(column);
+  if (spec.rounding == Rounding::listing && spec.per_ring == listing_per_ring) {
+    return listing_spacing * i + (staggered ? listing_stagger : 0.0);
+  }
+  const double spacing = 2.0 * std::numbers::pi / static_cast<double>(spec.per_ring);
+  return spacing * (i + (staggered ? 0.5 : 0.0));
+}
+
+}  // namespace
+
+double four_decimals(double x) {
+  // Decimal digits and back, not x * 1e4: the product would round once more before the cut.
+  std::array<char, 400> digits{};
+  const auto printed =
+      std::to_chars(digits.data(), digits.data() + digits.size(), x, std::chars_format::fixed, 4);
+  double read = 0.0;
+  std::from_chars(digits.data(), printed.ptr, read);
+  return read + 0.0;  // -0.0000 reads as zero
+}
+
+State make_ball(const BallSpec& spec) {
+  const auto n = static_cast<std::size_t>(spec.per_ring);
+  State state(spec.radii.size() * n);
+  const bool rounded = spec.rounding == Rounding::listing;
+  const auto format = [rounded](double x) { return rounded ? four_decimals(x) : x; };
+  const double vx = format(spec.velocity.x);
+  const double vy = format(spec.velocity.y);
+  for (std::size_t ring = 0; ring < spec.radii.size(); ++ring) {
+    for (std::size_t column = 0; column < n; ++column) {
+      const double theta = angle(spec, ring, static_cast<std::int64_t>(column));
+      const std::size_t i = ring * n + column;
+      state.x[i] = format(spec.centre.x + spec.radii[ring] * std::cos(theta));
+      state.y[i] = format(spec.centre.y + spec.radii[ring] * std::sin(theta));
+      state.vx[i] = vx;
+      state.vy[i] = vy;
+    }
+  }
+  return state;
+}
+
+std::vector<double> rest_lengths_squared(const BallSpec& spec, Rest rest) {
+  if (rest == Rest::listing) {
+    return {0.06854, 1.0205, 0.09865, 1.028925,
+            0.1343};  // MODEL 2: the listing's constants / 16000
+  }
+  // In extended precision, so that each square is the double nearest to the exact geometry's.
+  const long double half_spacing =
+      std::numbers::pi_v<long double> / static_cast<long double>(spec.per_ring);
+  std::vector<double> squares;
+  for (std::size_t ring = 0; ring < spec.radii.size(); ++ring) {
+    const long double r = spec.radii[ring];
+    const long double chord = 2.0L * r * std::sin(half_spacing);
+    squares.push_back(static_cast<double>(chord * chord));
+    if (ring + 1 == spec.radii.size()) break;
+    // (R - r)^2 + 4 r R sin^2(half/2): the law of cosines without its cancellation.
+    const long double outer = spec.radii[ring + 1];
+    const long double s = std::sin(half_spacing / 2.0L);
+    squares.push_back(static_cast<double>((outer - r) * (outer - r) + 4.0L * r * outer * s * s));
+  }
+  return squares;
+}
+
+}  // namespace bounce

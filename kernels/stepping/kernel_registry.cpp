@@ -1,0 +1,15 @@
+#include <vector>
+
+#include "kernels/stepping/csr.hpp"
+#include "kernels/stepping/plan.hpp"
+#include "kernels/stepping/ring.hpp"
+#include "kernels/stepping/strict.hpp"
+
+namespace bounce {
+
+std::span<const KernelEntry> kernels() {
+  static const std::vector<KernelEntry> entries{ring_entry(), csr_entry(), strict_entry()};
+  return entries;
+}
+
+}  // namespace bounce

@@ -1,0 +1,49 @@
+// What the vector kernels share: the walk through a method's stages, the pending kick of
+// first-same-as-last methods, and the snapshots. A kernel adds its data layout and its passes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/model/problem.hpp"
+#include "kernels/stepping/method.hpp"
+#include "kernels/stepping/stepper.hpp"
+
+namespace bounce {
+
+/// A stage with everything that does not change from step to step multiplied out.
+struct StageConstants {
+  std::vector<BondClass> kick;  ///< by class: kick dt G and kick dt H
+  Vec2 gravity;                 ///< kick dt g
+  double drift = 0.0;           ///< drift dt
+};
+
+class StagedStepper : public Stepper {
+ public:
+  explicit StagedStepper(const Problem& problem);
+
+  void advance(std::int64_t steps) final;
+  [[nodiscard]] State state() const final;
+  [[nodiscard]] Snapshot save() const final;
+  void restore(const Snapshot& snapshot) final;
+  [[nodiscard]] std::int64_t step() const final { return step_; }
+
+ protected:
+  /// Takes `steps` times all the given stages.
+  virtual void run(std::span<const StageConstants> stages, std::int64_t steps) = 0;
+  virtual void read(State& state) const = 0;
+  virtual void write(const State& state) = 0;
+  [[nodiscard]] const Problem& problem() const { return problem_; }
+
+ private:
+  Problem problem_;
+  std::vector<StageConstants> fresh_;   // of a step that no kick is pending for
+  std::vector<StageConstants> merged_;  // of a step that takes over the pending kick
+  bool kick_pending_ = false;
+  std::int64_t step_ = 0;
+};
+
+/// v += kick dt a(x), scalar, in the order of the neighbour list.
+void kick_only(const Problem& problem, double kick, State& state);
+
+}  // namespace bounce

@@ -1,0 +1,32 @@
+// What every kernel looks like from outside.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/model/state.hpp"
+
+namespace bounce {
+
+/// A state as a kernel holds it between steps: enough to go on, bit for bit, as if never stopped.
+struct Snapshot {
+  State state;                ///< velocities without the pending kick
+  bool kick_pending = false;  ///< the last stage's kick of a first-same-as-last method is still due
+  std::int64_t step = 0;      ///< steps taken
+};
+
+/// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Takes `steps` steps. advance(a) then advance(b) gives the bits of advance(a + b).
+  virtual void advance(std::int64_t steps) = 0;
+  /// Positions and velocities at the current step, all kicks done.
+  [[nodiscard]] virtual State state() const = 0;
+  /// For going back or going on elsewhere; restore() accepts any kernel's snapshot of this problem.
+  [[nodiscard]] virtual Snapshot save() const = 0;
+  virtual void restore(const Snapshot& snapshot) = 0;
+  /// Steps taken since the start.
+  [[nodiscard]] virtual std::int64_t step() const = 0;
+};
+
+}  // namespace bounce

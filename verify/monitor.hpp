@@ -1,0 +1,67 @@
+// What a run is watched by: energies, momenta and shape of one state, and the check that stops a
+// run that has become unstable.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "kernels/model/problem.hpp"
+
+namespace bounce {
+
+/// One state, measured. Unit masses, cgs; energies are absolute (erg per unit mass).
+struct Sample {
+  double kinetic = 0.0;
+  double bond = 0.0;     ///< sum of V(R) over all bonds
+  double gravity = 0.0;  ///< -sum of g.x
+  Vec2 momentum;
+  double angular_momentum = 0.0;  ///< about the centre of mass
+  Vec2 centre;                    ///< of mass, cm
+  double lowest = 0.0;            ///< smallest y, cm
+  double smallest_ratio = 0.0;    ///< smallest R/R0 of any bond; NaN if any is
+  std::int64_t ratio_first = 0;   ///< particles of that bond, index from 0
+  std::int64_t ratio_second = 0;
+  std::int64_t on_wall = 0;  ///< particles nearer to a wall than contact_distance, or behind it
+
+  [[nodiscard]] double total() const { return kinetic + bond + gravity; }
+};
+
+/// A particle nearer to a wall than this counts as touching it, cm: the last decimal of the
+/// listing's frames. A particle held on a wall hovers within a_y dt^2, some 1e-9 cm.
+inline constexpr double contact_distance = 1e-4;
+
+/// Measures a state; sums are compensated (Neumaier), so each energy is good to its last digits.
+Sample measure(const Problem& problem, const State& state);
+
+/// Why a run is stopped; indices from 0, -1 where there is none.
+struct Trouble {
+  std::string what;  ///< one sentence without step and time; names particle and bond, from 1
+  std::int64_t particle = -1;
+  std::int64_t bond_first = -1, bond_second = -1;
+};
+
+/// Looks at a run from time to time. Walls only take energy and the scheme conserves it nearly, so
+/// energy that appears from nowhere, more than all the ball could have set into motion since the
+/// start, means instability: its kinetic and elastic energy at the start, and the greatest fall
+/// since. (Motion seen since must not count: in an unstable run it grows with the energy that it
+/// should catch.)
+class Watch {
+ public:
+  Watch(const Problem& problem, const State& start);
+  /// The trouble with this state, if any. Never passes a NaN. Does not change the watch.
+  [[nodiscard]] std::optional<Trouble> check(const State& state, const Sample& sample) const;
+  /// Takes a good state's sample into account for later checks.
+  void accept(const Sample& sample);
+  /// Energy that may appear before the run counts as unstable, erg.
+  [[nodiscard]] double allowed_gain() const;
+
+ private:
+  const Problem* problem_;
+  Sample start_;
+  double motion_;      ///< kinetic + elastic energy at the start
+  double floor_;       ///< energy that rounding may make
+  double fall_ = 0.0;  ///< greatest gravity energy set free since the start
+};
+
+}  // namespace bounce

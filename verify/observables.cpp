@@ -1,0 +1,96 @@
+#include "verify/observables.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace bounce {
+namespace {
+
+using Points = Eigen::Map<const Eigen::ArrayXd>;
+
+Points points(const std::vector<double>& values, std::size_t first, std::size_t count) {
+  return {values.data() + first, static_cast<Eigen::Index>(count)};
+}
+
+// 1 - ratio of the principal axes of the points' gyration tensor; 0 = round.
+double flattening(const Points& x, const Points& y) {
+  const Eigen::ArrayXd dx = x - x.mean();
+  const Eigen::ArrayXd dy = y - y.mean();
+  Eigen::Matrix2d gyration;
+  gyration << dx.square().mean(), (dx * dy).mean(), (dx * dy).mean(), dy.square().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(gyration, Eigen::EigenvaluesOnly);
+  const Eigen::Vector2d squares = solver.eigenvalues();  // increasing
+  // A straight line of points may round to a squared axis just below zero.
+  return 1.0 - std::sqrt(std::max(squares[0], 0.0) / squares[1]);
+}
+
+// Signed area of a closed polygon, positive if it runs counter-clockwise.
+double area(const Points& x, const Points& y) {
+  double twice = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::Index next = i + 1 == x.size() ? 0 : i + 1;
+    twice += (x[i] - x[0]) * (y[next] - y[0]) - (x[next] - x[0]) * (y[i] - y[0]);
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+Shape measure_shape(const State& state, int rings) {
+  const std::size_t n = state.size();
+  if (rings < 1 || n == 0 || n % static_cast<std::size_t>(rings) != 0) {
+    throw std::invalid_argument(std::to_string(n) + " particles are not " + std::to_string(rings) +
+                                " rings of one size");
+  }
+  const std::size_t per_ring = n / static_cast<std::size_t>(rings);
+  const Points x = points(state.x, 0, n);
+  const Points y = points(state.y, 0, n);
+  const Points vx = points(state.vx, 0, n);
+  const Points vy = points(state.vy, 0, n);
+  const Eigen::ArrayXd dx = x - x.mean();
+  const Eigen::ArrayXd dy = y - y.mean();
+  Shape shape;
+  shape.width = x.maxCoeff() - x.minCoeff();
+  shape.height = y.maxCoeff() - y.minCoeff();
+  shape.flattening =
+      flattening(points(state.x, n - per_ring, per_ring), points(state.y, n - per_ring, per_ring));
+  shape.enclosed = area(points(state.x, 0, per_ring), points(state.y, 0, per_ring));
+  shape.spin = (dx * vy - dy * vx).sum() / (dx.square() + dy.square()).sum();
+  return shape;
+}
+
+void BounceGauge::add(double time, const Sample& sample) {
+  if (!std::isfinite(time) || !std::isfinite(sample.total()) || !std::isfinite(sample.centre.y)) {
+    throw std::invalid_argument("a sample of a bounce is not finite");
+  }
+  if (any_ && !(time > last_time_)) {
+    throw std::invalid_argument("samples of a bounce are not in the order of time");
+  }
+  const double height = sample.centre.y;
+  if (!any_ || height < bounce_.lowest_centre) {
+    bounce_.lowest_centre = height;
+    bounce_.lowest_centre_time = time;
+    bounce_.rebound_height = height;
+  }
+  bounce_.rebound_height = std::max(bounce_.rebound_height, height);
+  const bool touches = sample.on_wall > 0;
+  if (touches) {
+    if (bounce_.first_contact < 0.0) bounce_.first_contact = time;
+    bounce_.last_contact = time;
+  }
+  if (!any_) {
+    start_energy_ = sample.total();
+  } else {
+    const double ends = (touches ? 0.5 : 0.0) + (touched_ ? 0.5 : 0.0);
+    bounce_.contact_time += ends * (time - last_time_);
+  }
+  bounce_.energy_lost = start_energy_ - sample.total();
+  last_time_ = time;
+  touched_ = touches;
+  any_ = true;
+}
+
+}  // namespace bounce

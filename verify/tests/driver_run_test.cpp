@@ -1,0 +1,328 @@
+// The program itself, run as a user runs it. BOUNCE_PROGRAM is its path.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The text of a top-level entry of run.json, quotes and all.
+std::string entry(const fs::path& json, const std::string& key) {
+  const std::string text = contents(json);
+  const std::string start = "\n  \"" + key + "\": ";
+  const auto at = text.find(start);
+  if (at == std::string::npos) return "";
+  const auto from = at + start.size();
+  return text.substr(from, text.find_first_of(",\n", from) - from);
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class DriverRunTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Starts the program in the test's folder, its output in the files stdout and stderr.
+  pid_t start(Words words) {
+    words.insert(words.begin(), BOUNCE_PROGRAM);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      if (largest_file_ > 0) {
+        const rlimit limit{largest_file_, largest_file_};
+        signal(SIGXFSZ, SIG_IGN);  // so that writing fails, as on a full disk
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(99);
+      }
+      dup2(open("stdout", flags, 0600), STDOUT_FILENO);
+      dup2(open("stderr", flags, 0600), STDERR_FILENO);
+      execv(BOUNCE_PROGRAM, arguments.data());
+      _exit(99);
+    }
+    return child;
+  }
+  // The exit code; 1000 + signal if it was killed.
+  static int finish(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  int run(const Words& words) { return finish(start(words)); }
+
+  [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
+  [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
+  // Names in a folder, sorted, without the captured output.
+  [[nodiscard]] Words names(const fs::path& below = ".") const {
+    Words found;
+    for (const auto& item : fs::directory_iterator(folder_ / below)) {
+      const std::string name = item.path().filename();
+      if (name != "stdout" && name != "stderr") found.push_back(name);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  fs::path folder_;
+  rlim_t largest_file_ = 0;  // bytes the program may write to a file; 0: no limit
+};
+
+TEST_F(DriverRunTest, ARunWritesItsDirectory) {
+  ASSERT_EQ(run({"run", "example-2", "--steps", "20000", "--set", "output.frames_every=0.01"}), 0)
+      << err();
+  EXPECT_EQ(err(), "");  // no progress where there is no terminal
+  EXPECT_EQ(names(), Words{"runs"});
+  EXPECT_EQ(names("runs"), Words{"example-2"});
+  EXPECT_EQ(names("runs/example-2"),
+            (Words{"final.csv", "frames.extxyz", "monitor.csv", "run.json", "scene.toml"}));
+  const fs::path at = folder_ / "runs/example-2";
+  EXPECT_EQ(entry(at / "run.json", "status"), "\"complete\"");
+  EXPECT_EQ(entry(at / "run.json", "steps"), "20000");
+  EXPECT_EQ(entry(at / "run.json", "bonds"), "840");
+  const std::string hash = entry(at / "run.json", "state_hash");
+  EXPECT_EQ(hash.size(), 18U);
+  EXPECT_NE(out().find("state hash: " + hash.substr(1, 16)), std::string::npos) << out();
+  EXPECT_NE(out().find("plan: kernel "), std::string::npos) << out();
+  EXPECT_EQ(contents(at / "monitor.csv").substr(0, 31), "t,kinetic,bond,gravity,total,px");
+  EXPECT_EQ(lines(contents(at / "monitor.csv")), 4U);  // header, 0, 0.01, 0.02
+  EXPECT_EQ(lines(contents(at / "frames.extxyz")), 3U * 362U);
+  EXPECT_EQ(contents(at / "frames.extxyz").substr(0, 4), "360\n");
+  EXPECT_EQ(lines(contents(at / "final.csv")), 361U);
+  // The resolved scene runs again, to the same bits.
+  ASSERT_EQ(run({"run", "runs/example-2/scene.toml", "--out", "again", "--quiet"}), 0) << err();
+  EXPECT_EQ(out(), "");
+  EXPECT_EQ(entry(folder_ / "again/run.json", "state_hash"), hash);
+}
+
+TEST_F(DriverRunTest, BadInputExitsWith2AndLeavesNothing) {
+  std::ofstream(folder_ / "bad.toml") << "[law]\nq = 1\n";
+  std::ofstream(folder_ / "short.dat") << "      1.0000      2.0000      0.0000      0.0000\n";
+  std::ofstream(folder_ / "words.dat") << "x\n";
+  std::ofstream(folder_ / "wrong.csv") << "i,x,y,vx,vy\n1,0,0,0,0\n3,0,0,0,0\n";
+  const Words before = names();
+  struct Case {
+    Words words;
+    const char* message;
+  };
+  for (const Case& c : std::vector<Case>{
+           {{}, "subcommand is required"},
+           {{"run"}, "SCENE is required"},
+           {{"fly"}, "subcommand is required"},
+           {{"run", "example-22"}, "did you mean example-2?"},
+           {{"run", "bad.toml"}, "bad.toml:2: law.q = 1"},
+           {{"run", "example-2", "--set", "law.elasticty=1"}, "did you mean law.elasticity?"},
+           {{"run", "example-2", "--steps", "0"}, "--steps 0"},
+           {{"run", "example-2", "--steps", "x"}, "--steps"},
+           {{"run", "example-2", "--t-end", "nan"}, "--t-end: time.end = nan"},
+           {{"run", "example-2", "--t-end", "1e-9"}, "time.end = 1e-09: allowed is"},
+           {{"run", "example-2", "--steps", "5", "--t-end", "1"}, "excludes"},
+           {{"run", "example-2", "--kernel", "warp"}, "no such kernel"},
+           {{"run", "example-2", "--vector", "sse"}, "--vector sse"},
+           {{"run", "example-2", "--threads", "-1"}, "--threads"},
+           {{"run", "law-2-4", "--kernel", "oracle"}, "oracle"},
+           {{"run", "example-2", "--initial", "none.dat"}, "none.dat: cannot be read"},
+           {{"run", "example-2", "--initial", "short.dat"},
+            "short.dat: initial state = 1 particles"},
+           {{"run", "example-2", "--initial", "words.dat"}, "words.dat: "},
+           {{"run", "example-2", "--initial", "wrong.csv"}, "wrong.csv:3: i = \"3\": allowed is 2"},
+           {{"run", "example-2", "--set", "ball.centre=[0,2]"}, "wall[0] = a wall that particle"},
+           {{"run", "example-2", "--final-state", "no/such/folder.csv"}, "is not a folder"},
+           {{"run", "example-2", "--out", "bad.toml"}, "exists already"},
+           {{"run", "example-2", "--out", "bad.toml", "--force"}, "is not the directory of a run"},
+           {{"run", "example-2", "--out", ".", "--force"}, "is not the directory of a run"},
+           {{"run", "example-2", "--out", "bad.toml/sub"}, "cannot be made there"},
+       }) {
+    EXPECT_EQ(run(c.words), 2) << c.message;
+    EXPECT_NE(err().find(c.message), std::string::npos) << c.message << " not in: " << err();
+    EXPECT_EQ(names(), before) << c.message;
+  }
+  EXPECT_EQ(contents(folder_ / "bad.toml"), "[law]\nq = 1\n");
+}
+
+TEST_F(DriverRunTest, NothingIsOverwrittenWithoutForce) {
+  const Words first{"run", "example-2", "--steps", "10", "--out", "r", "--final-state", "f.csv"};
+  ASSERT_EQ(run(first), 0) << err();
+  const std::string json = contents(folder_ / "r/run.json");
+  const std::string state = contents(folder_ / "f.csv");
+  EXPECT_EQ(run({"run", "example-2", "--steps", "20", "--out", "r"}), 2);
+  EXPECT_NE(err().find("--force"), std::string::npos);
+  EXPECT_EQ(run({"run", "example-2", "--steps", "20", "--out", "s", "--final-state", "f.csv"}), 2);
+  EXPECT_NE(err().find("--force"), std::string::npos);
+  EXPECT_EQ(contents(folder_ / "r/run.json"), json);
+  EXPECT_EQ(contents(folder_ / "f.csv"), state);
+  EXPECT_EQ(names(), (Words{"f.csv", "r"}));
+  ASSERT_EQ(run({"run", "example-2", "--steps", "20", "--out", "r/", "--final-state", "f.csv",
+                 "--force"}),
+            0)
+      << err();
+  EXPECT_EQ(entry(folder_ / "r/run.json", "steps"), "20");
+  EXPECT_NE(contents(folder_ / "f.csv"), state);
+  EXPECT_EQ(contents(folder_ / "f.csv"), contents(folder_ / "r/final.csv"));
+  EXPECT_EQ(names(), (Words{"f.csv", "r"}));
+}
+
+TEST_F(DriverRunTest, AFullDiskIsAnErrorThatLeavesNothing) {
+  largest_file_ = 4096;  // scene.toml fits, a frame does not
+  EXPECT_EQ(run({"run", "example-2", "--steps", "10"}), 1);
+  EXPECT_NE(err().find("frames.extxyz: cannot be written: "), std::string::npos) << err();
+  EXPECT_EQ(names("runs"), Words{});
+}
+
+TEST_F(DriverRunTest, AFinalStateContinuesToTheBit) {
+  ASSERT_EQ(run({"run", "example-5", "--steps", "3000", "--final-state", "a.csv"}), 0) << err();
+  ASSERT_EQ(run({"run", "example-5", "--steps", "2000", "--initial", "a.csv", "--out", "b"}), 0)
+      << err();
+  ASSERT_EQ(run({"run", "example-5", "--steps", "5000", "--out", "c"}), 0) << err();
+  const std::string hash = entry(folder_ / "b/run.json", "state_hash");
+  EXPECT_EQ(hash.size(), 18U);
+  EXPECT_EQ(hash, entry(folder_ / "c/run.json", "state_hash"));
+  EXPECT_NE(hash, entry(folder_ / "runs/example-5/run.json", "state_hash"));
+}
+
+TEST_F(DriverRunTest, TheListingsFramesCanBeReadBack) {
+  ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--listing-frames", "--out", "r"}), 0)
+      << err();
+  EXPECT_EQ(names("r"), (Words{"BAL4.OUT", "final.csv", "frames.extxyz", "monitor.csv", "run.json",
+                               "scene.toml"}));
+  EXPECT_EQ(lines(contents(folder_ / "r/BAL4.OUT")), 360U);
+  // Read as a start, it is the first frame, number for number.
+  ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--initial", "r/BAL4.OUT", "--out", "s"}), 0)
+      << err();
+  std::ifstream listing(folder_ / "r/BAL4.OUT");
+  std::ifstream frame(folder_ / "s/frames.extxyz");
+  std::string word;
+  std::getline(frame, word);
+  std::getline(frame, word);
+  for (int i = 0; i < 360; ++i) {
+    double x = 0, y = 0, vx = 0, vy = 0;
+    double frame_x = -1, frame_y = -1, frame_vx = -1, frame_vy = -1, zero = -1;
+    listing >> x >> y >> vx >> vy;
+    frame >> word >> frame_x >> frame_y >> zero >> frame_vx >> frame_vy >> zero >> word;
+    ASSERT_TRUE(listing && frame) << i;
+    EXPECT_TRUE(x == frame_x && y == frame_y && vx == frame_vx && vy == frame_vy) << i;
+    EXPECT_EQ(zero, 0.0);
+  }
+}
+
+TEST_F(DriverRunTest, ListingFramesComeEachMillionSteps) {
+  // Small steps need not be real ones: a ball of one ring of three is as good, and quick.
+  ASSERT_EQ(
+      run({"run", "example-2", "--steps", "2000001", "--listing-frames", "--out", "r", "--set",
+           "ball.radii=[1]", "--set", "ball.per_ring=3", "--set", "law.rest=geometry"}),
+      0)
+      << err();
+  const Words files = names("r");
+  EXPECT_EQ(Words(files.begin(), files.begin() + 3), (Words{"BAL4.OUT", "BAL4.OUT1", "BAL4.OUT2"}));
+  EXPECT_EQ(files[3], "final.csv");
+}
+
+TEST_F(DriverRunTest, AnUnstableRunExitsWith3AndKeepsTheLastGoodState) {
+  const Words words{"run",   "example-2",
+                    "--set", "time.step=3.9e-4",
+                    "--set", "time.method=leapfrog",
+                    "--set", "output.monitor_every=1",
+                    "--out"};
+  Words first = words;
+  first.push_back("r");
+  ASSERT_EQ(run(first), 3) << err();
+  EXPECT_NE(err().find("unstable at step "), std::string::npos) << err();
+  EXPECT_EQ(entry(folder_ / "r/run.json", "status"), "\"unstable\"");
+  EXPECT_EQ(lines(contents(folder_ / "r/final.csv")), 361U);
+  EXPECT_EQ(contents(folder_ / "r/final.csv").find("nan"), std::string::npos);
+  // The step is the first bad one: a run that ends just before it, watched at its end only, is
+  // complete, and ends in the state that was kept; one step more is refused.
+  const long good = std::stol(entry(folder_ / "r/run.json", "steps"));
+  EXPECT_NE(err().find("unstable at step " + std::to_string(good + 1) + " "), std::string::npos)
+      << err();
+  ASSERT_GE(good,
+            2);  // else the bisection had nothing to do: choose a step nearer to the stable one
+  EXPECT_NE(err().find("bond "), std::string::npos) << err();
+  EXPECT_NE(err().find("particle "), std::string::npos) << err();
+  Words to_good = words;
+  to_good.insert(to_good.end(), {"s", "--steps", std::to_string(good)});
+  EXPECT_EQ(run(to_good), 0) << err();
+  EXPECT_EQ(contents(folder_ / "r/final.csv"), contents(folder_ / "s/final.csv"));
+  Words to_bad = words;
+  to_bad.insert(to_bad.end(), {"t", "--steps", std::to_string(good + 1)});
+  EXPECT_EQ(run(to_bad), 3);
+}
+
+TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
+  const pid_t child = start({"run", "example-2", "--t-end", "100000", "--out", "r"});
+  // Wait until it has something to keep: monitor.csv in the partial directory.
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const fs::path partial = folder_ / ("r.partial-" + std::to_string(child));
+  while (!fs::exists(partial / "frames.extxyz") && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  kill(child, SIGINT);
+  EXPECT_EQ(finish(child), 130) << err();
+  EXPECT_NE(err().find("interrupted at step "), std::string::npos) << err();
+  EXPECT_EQ(names(), Words{"r"});
+  EXPECT_EQ(entry(folder_ / "r/run.json", "status"), "\"interrupted\"");
+  EXPECT_GT(std::stol(entry(folder_ / "r/run.json", "steps")), 0);
+  EXPECT_EQ(lines(contents(folder_ / "r/final.csv")), 361U);
+}
+
+TEST_F(DriverRunTest, SetChangesWhatRuns) {
+  ASSERT_EQ(run({"run", "example-7", "--steps", "10", "--set", "wall.alpha=0.25", "--out", "r"}), 0)
+      << err();
+  const std::string scene = contents(folder_ / "r/scene.toml");
+  std::size_t found = 0;
+  for (auto at = scene.find("alpha = 0.25"); at != std::string::npos;
+       at = scene.find("alpha = 0.25", at + 1)) {
+    ++found;
+  }
+  EXPECT_EQ(found, 2U) << scene;
+}
+
+TEST_F(DriverRunTest, TheOtherCommandsTell) {
+  EXPECT_EQ(run({"list"}), 0);
+  for (const char* word :
+       {"example-7", "law-2-4", "large-ball", "listing", "oracle", "wall.alpha"}) {
+    EXPECT_NE(out().find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(run({"show", "example-3"}), 0);
+  EXPECT_NE(out().find("elasticity = 1000.0"), std::string::npos);
+  EXPECT_EQ(run({"--version"}), 0);
+  EXPECT_NE(out().find("commit "), std::string::npos);
+  EXPECT_NE(out().find("vector targets: "), std::string::npos);
+  EXPECT_EQ(run({"run", "--help"}), 0);
+  EXPECT_NE(out().find("Examples:"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,302 @@
+// The kernels against plain scalar stepping, against each other's thread counts and restarts, and
+// the plan's choices and refusals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/model/problem.hpp"
+#include "kernels/stepping/method.hpp"
+#include "kernels/stepping/plan.hpp"
+#include "kernels/stepping/ring_shape.hpp"
+#include "kernels/stepping/slices.hpp"
+
+namespace bounce {
+namespace {
+
+// Example 2's ball just above the floor and falling fast: it touches within some thousand steps.
+Scene touching_scene() {
+  Scene scene;
+  scene.ball.centre.y = 7.002;
+  scene.ball.velocity = {0.5, -2.0};
+  scene.walls = {Wall{}};
+  return scene;
+}
+
+Scene wedge_scene() {
+  Scene scene = touching_scene();
+  const double h = std::sqrt(0.5);
+  scene.walls = {Wall{{h, h}, -2.051, 0.3, -0.7}, Wall{{0.0, 1.0}, 0.0, 1.0, -1.0}};
+  return scene;
+}
+
+Scene law_scene(double p, double q) {
+  Scene scene = touching_scene();
+  scene.law.p = p;
+  scene.law.q = q;
+  scene.law.rest = Rest::geometry;
+  return scene;
+}
+
+PlanRequest forced(const std::string& kernel, int threads = 1) {
+  PlanRequest request;
+  request.kernel = kernel;
+  request.threads = threads;
+  return request;
+}
+
+std::unique_ptr<Stepper> stepper_of(const Problem& problem, const PlanRequest& request) {
+  return make_stepper(problem, make_plan(problem, request));
+}
+
+// One step, written as plainly as can be.
+State scalar_step(const Problem& problem, const State& from) {
+  State to = from;
+  const BondList& bonds = problem.bonds;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    double ax = problem.gravity.x;
+    double ay = problem.gravity.y;
+    for (std::int64_t e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
+      const auto entry = static_cast<std::size_t>(e);
+      const auto j = static_cast<std::size_t>(bonds.neighbour[entry]);
+      const double dx = from.x[i] - from.x[j];
+      const double dy = from.y[i] - from.y[j];
+      const double f = force_over_distance(problem.law, problem.classes[bonds.bond_class[entry]],
+                                           dx * dx + dy * dy);
+      ax += f * dx;
+      ay += f * dy;
+    }
+    to.vx[i] += problem.step * ax;
+    to.vy[i] += problem.step * ay;
+    to.x[i] += problem.step * to.vx[i];
+    to.y[i] += problem.step * to.vy[i];
+    for (const Wall& w : problem.walls) {
+      const double d = wall_distance(w, to.x[i], to.y[i]);
+      if (d > 0.0) continue;
+      const double vn = w.normal.x * to.vx[i] + w.normal.y * to.vy[i];
+      const double tx = to.vx[i] - vn * w.normal.x;
+      const double ty = to.vy[i] - vn * w.normal.y;
+      to.x[i] -= 2.0 * d * w.normal.x;
+      to.y[i] -= 2.0 * d * w.normal.y;
+      to.vx[i] = w.alpha * tx + w.beta * vn * w.normal.x;
+      to.vy[i] = w.alpha * ty + w.beta * vn * w.normal.y;
+    }
+  }
+  return to;
+}
+
+double largest_difference(const State& a, const State& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double d = std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]);
+    if (!(d <= largest)) largest = d;  // a NaN stays
+  }
+  return largest;
+}
+
+struct Case {
+  std::string name;
+  std::string kernel;
+  Scene scene;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  const auto add = [&all](const std::string& name, const Scene& scene,
+                          std::initializer_list<const char*> kernels) {
+    for (const char* kernel : kernels) all.push_back({name + "_" + kernel, kernel, scene});
+  };
+  Scene no_wall = touching_scene();
+  no_wall.walls.clear();
+  no_wall.gravity = {};
+  Scene rings = touching_scene();
+  rings.law.rest = Rest::geometry;
+  add("floor", touching_scene(), {"strict", "csr", "ring"});
+  add("no_wall", no_wall, {"strict", "csr", "ring"});
+  add("wedge", wedge_scene(), {"strict", "csr", "ring"});
+  add("law_7_13", law_scene(7, 13), {"csr", "ring"});
+  add("law_2_4", law_scene(2, 4), {"csr", "ring"});
+  add("law_1_3", law_scene(1, 3), {"csr"});
+  add("law_5_11", law_scene(5, 11), {"csr"});
+  add("law_half", law_scene(2.5, 4.5), {"csr"});
+  rings.ball.radii = {7.0};
+  add("one_ring", rings, {"strict", "csr", "ring"});
+  rings.ball.radii = {6.0, 7.0};
+  add("two_rings", rings, {"strict", "csr", "ring"});
+  rings.ball.radii = {4.0, 5.0, 6.0, 7.0};
+  add("four_rings", rings, {"strict", "csr", "ring"});
+  rings.ball.radii = {3.0, 4.0, 5.0, 6.0, 7.0};
+  add("five_rings", rings, {"strict", "csr"});
+  rings.ball.radii = {5.0, 6.0, 7.0};
+  rings.ball.per_ring = 121;
+  add("odd_columns", rings, {"strict", "csr"});
+  rings.ball.per_ring = 8;
+  add("eight_columns", rings, {"strict", "csr", "ring"});
+  return all;
+}
+
+class KernelTest : public testing::TestWithParam<Case> {};
+
+// 3000 steps, with the floor touched from about step 1000 on. Allowed: two runs that round each
+// position once a step to half an ULP of 16 cm may part by an ULP (3.6e-15 cm) a step, and contact,
+// which turns velocities round, may amplify that; ten-fold is allowed.
+TEST_P(KernelTest, StepsLikePlainCode) {
+  const Problem problem = make_problem(GetParam().scene);
+  auto stepper = stepper_of(problem, forced(GetParam().kernel));
+  State plain = problem.initial;
+  constexpr int steps = 3000;
+  for (int s = 0; s < steps; ++s) plain = scalar_step(problem, plain);
+  stepper->advance(steps);
+  EXPECT_LE(largest_difference(stepper->state(), plain), 10 * steps * 3.6e-15);
+}
+
+TEST_P(KernelTest, SameBitsForAnyThreadCount) {
+  const Problem problem = make_problem(GetParam().scene);
+  auto one = stepper_of(problem, forced(GetParam().kernel, 1));
+  one->advance(1500);
+  const std::uint64_t expected = state_hash(one->state());
+  for (int threads = 2; threads <= 4; ++threads) {
+    if (problem.initial.size() < 100 && threads > 2) break;  // more threads than columns: refused
+    auto team = stepper_of(problem, forced(GetParam().kernel, threads));
+    team->advance(1000);
+    team->advance(500);
+    EXPECT_EQ(state_hash(team->state()), expected) << threads << " threads";
+  }
+}
+
+TEST_P(KernelTest, SameBitsForAnyVectorTarget) {
+  const Problem problem = make_problem(GetParam().scene);
+  if (available_vectors().size() < 2) GTEST_SKIP() << "one vector target on this processor";
+  std::vector<std::uint64_t> hashes;
+  for (const VectorTarget target : available_vectors()) {
+    PlanRequest request = forced(GetParam().kernel);
+    request.vector = name_of(target);
+    auto stepper = stepper_of(problem, request);
+    stepper->advance(3000);
+    hashes.push_back(state_hash(stepper->state()));
+  }
+  EXPECT_EQ(hashes.front(), hashes.back());
+}
+
+TEST_P(KernelTest, SameBitsAcrossARestart) {
+  Scene scene = GetParam().scene;
+  if (GetParam().kernel != "strict") scene.time.method = "leapfrog";  // with its pending kick
+  const Problem problem = make_problem(scene);
+  auto through = stepper_of(problem, forced(GetParam().kernel));
+  through->advance(1201);
+  auto first = stepper_of(problem, forced(GetParam().kernel));
+  first->advance(700);
+  (void)first->state();  // looking must not change anything
+  first->advance(1);
+  auto second = stepper_of(problem, forced(GetParam().kernel));
+  second->restore(first->save());
+  second->advance(500);
+  EXPECT_EQ(second->step(), 1201);
+  EXPECT_EQ(state_hash(second->state()), state_hash(through->state()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, KernelTest, testing::ValuesIn(cases()),
+                         [](const auto& param) { return param.param.name; });
+
+TEST(StateHash, SeesOneBit) {
+  State state(4);
+  const std::uint64_t before = state_hash(state);
+  state.vy[3] = std::nextafter(0.0, 1.0);
+  EXPECT_NE(state_hash(state), before);
+  state.vy[3] = -0.0;
+  EXPECT_NE(state_hash(state), before);
+}
+
+TEST(Plan, TakesTheRingKernelForThePapersBall) {
+  const Plan plan = make_plan(make_problem(touching_scene()));
+  EXPECT_EQ(plan.kernel, "ring");
+  EXPECT_EQ(plan.vector, available_vectors().front());
+}
+
+TEST(Plan, FallsBackToCsrAndSaysWhy) {
+  Scene scene = law_scene(1, 3);
+  const Plan plan = make_plan(make_problem(scene));
+  EXPECT_EQ(plan.kernel, "csr");
+  ASSERT_FALSE(plan.reasons.empty());
+  EXPECT_NE(plan.reasons.back().find("not ring"), std::string::npos);
+}
+
+TEST(Plan, RefusesWhatItCannotDoAsForced) {
+  const Problem paper = make_problem(touching_scene());
+  EXPECT_THROW(make_plan(paper, forced("rign")), PlanError);
+  EXPECT_THROW(make_plan(paper, forced("ring", -1)), PlanError);
+  EXPECT_THROW(make_plan(paper, forced("ring", 257)), PlanError);
+  EXPECT_THROW(make_plan(paper, forced("ring", 200)), PlanError);  // more than its columns
+  PlanRequest vector;
+  vector.vector = "mmx";
+  EXPECT_THROW(make_plan(paper, vector), PlanError);
+  EXPECT_THROW(make_plan(make_problem(law_scene(1, 3)), forced("ring")), PlanError);
+  EXPECT_THROW(make_plan(make_problem(law_scene(2, 4)), forced("strict")), PlanError);
+  Scene leapfrog = touching_scene();
+  leapfrog.time.method = "leapfrog";
+  EXPECT_THROW(make_plan(make_problem(leapfrog), forced("strict")), PlanError);
+}
+
+TEST(Plan, NamesWhatIsLeftOut) {
+  Scene scene = touching_scene();
+  const auto has = [](const Plan& plan, const std::string& what) {
+    return std::find(plan.left_out.begin(), plan.left_out.end(), what) != plan.left_out.end();
+  };
+  EXPECT_FALSE(has(make_plan(make_problem(scene)), "wall test and reflection"));
+  scene.walls.clear();
+  EXPECT_TRUE(has(make_plan(make_problem(scene)), "wall test and reflection"));
+}
+
+TEST(RingShape, IsFoundWhateverTheOrderAndNotAssumed) {
+  const BondList bonds = ring_bonds(3, 120);
+  const auto shape = find_rings(bonds);
+  ASSERT_TRUE(shape.has_value());
+  EXPECT_EQ(shape->rings, 3);
+  EXPECT_EQ(shape->per_ring, 120);
+  EXPECT_EQ(shape->along, (std::vector<int>{0, 2, 4}));
+  EXPECT_EQ(shape->same, (std::vector<int>{1, 3}));
+  EXPECT_EQ(shape->diagonal, (std::vector<int>{1, 3}));
+  BondList one_class_off = bonds;
+  one_class_off.bond_class[700] ^= 1;
+  EXPECT_FALSE(find_rings(one_class_off).has_value());
+  BondList one_bond_off = bonds;
+  one_bond_off.neighbour[700] = (one_bond_off.neighbour[700] + 17) % 360;
+  EXPECT_FALSE(find_rings(one_bond_off).has_value());
+}
+
+TEST(Slices, HoldEveryEntryOfTheListOnce) {
+  for (const auto& [rings, per_ring] : {std::pair{3, 120}, {5, 121}, {1, 7}}) {
+    const BondList bonds = ring_bonds(rings, per_ring);
+    for (const int lanes : {1, 4, 8}) {
+      const SlicedBonds sliced = slice_bonds(bonds, lanes);
+      std::size_t entries = 0;
+      for (std::size_t s = 0; s < sliced.slices.size(); ++s) {
+        for (std::int32_t k = 0; k < sliced.slices[s].all; ++k) {
+          const SliceEntry entry =
+              sliced.entries[static_cast<std::size_t>(sliced.slices[s].begin + k)];
+          for (std::size_t l = 0; l < static_cast<std::size_t>(lanes); ++l) {
+            const auto width = static_cast<std::size_t>(lanes);
+            const int bond_class =
+                sliced.combinations[static_cast<std::size_t>(entry.combination) * width + l];
+            if (bond_class == no_bond) continue;
+            const std::size_t i = s * width + l;
+            const auto e = static_cast<std::size_t>(bonds.start[i] + k);
+            const std::int64_t neighbour =
+                entry.first >= 0
+                    ? entry.first + static_cast<std::int64_t>(l)
+                    : sliced.scattered[static_cast<std::size_t>(-1 - entry.first) * width + l];
+            EXPECT_EQ(neighbour, bonds.neighbour[e]);
+            EXPECT_EQ(bond_class, bonds.bond_class[e]);
+            ++entries;
+          }
+        }
+      }
+      EXPECT_EQ(entries, bonds.entries());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bounce

@@ -1,0 +1,78 @@
+// The same bits for any number of lanes. Vectors of 1, 2 and 4 lanes are built here on purpose, so
+// that the claim is tested also where a processor has but one vector target.
+#define HWY_COMPILE_ONLY_STATIC
+#include <gtest/gtest.h>
+
+#include "kernels/model/problem.hpp"
+#include "kernels/stepping/csr_physics-inl.hpp"
+#include "kernels/stepping/ring_stepper-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bounce {
+namespace HWY_NAMESPACE {
+
+Problem touching_problem(const std::string& method) {
+  Scene scene;
+  scene.ball.centre.y = 7.002;
+  scene.ball.velocity = {0.5, -2.0};
+  scene.walls = {Wall{{0.0, 1.0}, 0.0, 0.4, -0.6}};
+  scene.time.method = method;
+  return make_problem(scene);
+}
+
+constexpr int steps = 4000;  // the floor is touched from about step 1000 on
+
+template <size_t lanes>
+std::uint64_t ring_hash(const Problem& problem, int threads) {
+  using D = hn::FixedTag<double, lanes>;
+  RingStepper<D, FixedLaw<4, 2>, Floor, 3> stepper(problem, *find_rings(problem.bonds), threads);
+  stepper.advance(steps);
+  return state_hash(stepper.state());
+}
+
+template <size_t lanes>
+std::uint64_t csr_hash(const Problem& problem, int threads) {
+  using D = hn::FixedTag<double, lanes>;
+  SlicedStepper<FastPhysics<D, FixedLaw<4, 2>, AnyWalls>> stepper(problem, threads);
+  stepper.advance(steps);
+  return state_hash(stepper.state());
+}
+
+TEST(Lanes, DoNotChangeABitOfRing) {
+  for (const char* method : {"listing", "leapfrog"}) {
+    const Problem problem = touching_problem(method);
+    const std::uint64_t four = ring_hash<4>(problem, 1);
+    EXPECT_EQ(ring_hash<1>(problem, 1), four);
+    EXPECT_EQ(ring_hash<2>(problem, 1), four);
+    EXPECT_EQ(ring_hash<1>(problem, 3), four);
+    EXPECT_EQ(ring_hash<2>(problem, 2), four);
+  }
+}
+
+TEST(Lanes, DoNotChangeABitOfCsr) {
+  for (const char* method : {"listing", "leapfrog"}) {
+    const Problem problem = touching_problem(method);
+    const std::uint64_t four = csr_hash<4>(problem, 1);
+    EXPECT_EQ(csr_hash<1>(problem, 1), four);
+    EXPECT_EQ(csr_hash<2>(problem, 2), four);
+  }
+}
+
+// Rows of different length in one vector, and a last vector that is not full.
+TEST(Lanes, DoNotChangeABitOfCsrOnRaggedRows) {
+  Scene scene;
+  scene.ball.per_ring = 13;
+  scene.law.rest = Rest::geometry;
+  scene.ball.centre.y = 7.002;
+  scene.ball.velocity = {0.5, -2.0};
+  scene.walls = {Wall{}};
+  const Problem problem = make_problem(scene);
+  const std::uint64_t four = csr_hash<4>(problem, 1);
+  EXPECT_EQ(csr_hash<1>(problem, 1), four);
+  EXPECT_EQ(csr_hash<2>(problem, 1), four);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bounce
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,423 @@
+// What is simulated: ball, bonds, pair law, constants, scene limits.
+#include <gsl/gsl_deriv.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "kernels/model/bonds.hpp"
+#include "kernels/model/pair_law.hpp"
+#include "kernels/model/problem.hpp"
+#include "verify/tests/paper_scenes.hpp"
+
+namespace bounce {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// ---- bonds ----
+
+// Neighbours of particle i (from 1) in the listing's order: MODEL 3, row by row.
+std::vector<int> listing_row(int i) {
+  if (i == 1) return {2, 120, 121, 240};
+  if (i <= 119) return {i + 1, i - 1, i + 120, i + 119};
+  if (i == 120) return {1, 119, 240, 239};
+  if (i == 121) return {1, 2, 122, 240, 242, 241};
+  if (i <= 239) return {i - 120, i - 119, i + 1, i - 1, i + 120, i + 121};
+  if (i == 240) return {120, 1, 121, 239, 360, 241};
+  if (i == 241) return {242, 360, 121, 240};
+  if (i <= 359) return {i + 1, i - 1, i - 120, i - 121};
+  return {359, 241, 240, 239};
+}
+
+int ring_of(int i) { return (i - 1) / 120; }
+
+std::vector<int> row_of(const BondList& bonds, int i) {
+  const auto row = static_cast<std::size_t>(i - 1);
+  std::vector<int> found;
+  for (auto e = bonds.start[row]; e < bonds.start[row + 1]; ++e) {
+    found.push_back(bonds.neighbour[static_cast<std::size_t>(e)] + 1);
+  }
+  return found;
+}
+
+TEST(Bonds, PapersBallInTheListingsOrder) {
+  const BondList bonds = ring_bonds(3, 120);
+  ASSERT_EQ(bonds.particles(), 360U);
+  EXPECT_EQ(bonds.bonds(), 840U);
+  EXPECT_EQ(bonds.entries(), 1680U);
+  for (int i = 1; i <= 360; ++i) EXPECT_EQ(row_of(bonds, i), listing_row(i)) << "particle " << i;
+}
+
+TEST(Bonds, ClassIsTheSumOfTheRings) {
+  const BondList bonds = ring_bonds(3, 120);
+  for (int i = 1; i <= 360; ++i) {
+    auto e = static_cast<std::size_t>(bonds.start[static_cast<std::size_t>(i - 1)]);
+    for (const int j : listing_row(i)) {
+      EXPECT_EQ(static_cast<int>(bonds.bond_class[e++]), ring_of(i) + ring_of(j)) << i << "-" << j;
+    }
+  }
+}
+
+TEST(Bonds, SymmetricForAnyRings) {
+  for (const int rings : {1, 2, 3, 4, 7}) {
+    for (const std::int64_t per_ring : {3, 4, 5, 120}) {
+      const BondList bonds = ring_bonds(rings, per_ring);
+      EXPECT_NO_THROW(check_bonds(bonds)) << rings << " x " << per_ring;
+      const auto n = static_cast<std::size_t>(per_ring);
+      const auto r = static_cast<std::size_t>(rings);
+      EXPECT_EQ(bonds.bonds(), r * n + 2 * (r - 1) * n);
+    }
+  }
+}
+
+// Bonds of the list are the shortest distances there are: nothing else lies as near.
+TEST(Bonds, JoinNearestParticles) {
+  const Problem problem = make_problem(paper_scene(2));
+  for (std::size_t c = 0; c < problem.classes.size(); ++c) {
+    EXPECT_GT(problem.classes[c].rest, 0.26);
+  }
+  for (int i = 1; i <= 360; ++i) {
+    const auto a = static_cast<std::size_t>(i - 1);
+    for (const int j : listing_row(i)) {
+      const auto b = static_cast<std::size_t>(j - 1);
+      const double d = std::hypot(problem.initial.x[a] - problem.initial.x[b],
+                                  problem.initial.y[a] - problem.initial.y[b]);
+      const auto c = static_cast<std::size_t>(ring_of(i) + ring_of(j));
+      EXPECT_NEAR(d, problem.classes[c].rest, 2e-4) << i << "-" << j;  // four decimals at both ends
+    }
+  }
+}
+
+TEST(Bonds, CheckCatchesEachCorruption) {
+  const BondList good = ring_bonds(3, 120);
+  EXPECT_NO_THROW(check_bonds(good));
+  const std::vector<std::function<void(BondList&)>> corruptions{
+      [](BondList& b) { b.neighbour[17] = 360; },                // out of range
+      [](BondList& b) { b.neighbour[17] = -1; },                 //
+      [](BondList& b) { b.neighbour[4 * 5] = 5; },               // itself
+      [](BondList& b) { b.neighbour[1] = b.neighbour[0]; },      // twice
+      [](BondList& b) { b.neighbour[2] = 200; },                 // no way back
+      [](BondList& b) { b.bond_class[9] = 4; },                  // another class there
+      [](BondList& b) { b.start[10] += 1; },                     // a row too long
+      [](BondList& b) { std::swap(b.start[10], b.start[11]); },  // not increasing
+      [](BondList& b) { b.start.back() -= 1; },                  // entries left over
+      [](BondList& b) { b.start.front() = 1; },                  //
+      [](BondList& b) { b.start.clear(); },                      //
+      [](BondList& b) { b.bond_class.pop_back(); },              //
+  };
+  for (std::size_t k = 0; k < corruptions.size(); ++k) {
+    BondList bad = good;
+    corruptions[k](bad);
+    EXPECT_THROW(check_bonds(bad), std::logic_error) << "corruption " << k;
+  }
+}
+
+// ---- pair law ----
+
+struct LawAt {
+  PairLaw law;
+  BondClass bond;
+};
+
+double potential_at(double r, void* at) {
+  const auto* law_at = static_cast<const LawAt*>(at);
+  return potential(law_at->law, law_at->bond, r * r);
+}
+
+class PairLawTest : public testing::TestWithParam<PairLaw> {
+ protected:
+  static BondClass bond(PairLaw law) {
+    const double rest = 0.26;
+    return {16000.0, 16000.0 * std::pow(rest, law.q - law.p), rest};
+  }
+};
+
+TEST_P(PairLawTest, ForceIsMinusTheGradient) {
+  LawAt at{GetParam(), bond(GetParam())};
+  const gsl_function function{&potential_at, &at};
+  for (const double r : {0.13, 0.2, 0.26, 0.3, 0.5, 1.0, 3.0}) {
+    double slope = 0.0;
+    double error = 0.0;
+    ASSERT_EQ(gsl_deriv_central(&function, r, 1e-4 * r, &slope, &error), 0);
+    const double force = force_over_distance(at.law, at.bond, r * r) * r;
+    // At rest the two terms cancel, so the scale is one of them, not the force.
+    const double scale = at.bond.attraction / std::pow(r, at.law.p);
+    EXPECT_NEAR(force, -slope, 1e-8 * scale + 2.0 * error) << "R = " << r;
+    EXPECT_LE(error, 1e-6 * scale + 1e-6 * std::abs(force)) << "the slope is too rough to judge by";
+  }
+}
+
+TEST_P(PairLawTest, RestIsRestAndTheLawIsThePapers) {
+  const PairLaw law = GetParam();
+  const BondClass b = bond(law);
+  const double scale = b.attraction / std::pow(b.rest, law.p);
+  EXPECT_NEAR(force_over_distance(law, b, b.rest * b.rest) * b.rest, 0.0, 1e-13 * scale);
+  for (const double r : {0.1, 0.2, 0.4, 2.0}) {
+    const double expected =
+        -b.attraction / std::pow(r, law.p) + b.repulsion / std::pow(r, law.q);  // equation 1
+    EXPECT_NEAR(force_over_distance(law, b, r * r) * r, expected,
+                1e-12 * (b.attraction / std::pow(r, law.p) + b.repulsion / std::pow(r, law.q)));
+  }
+  EXPECT_GT(force_over_distance(law, b, 0.04), 0.0);  // repulsion when pressed
+  EXPECT_LT(force_over_distance(law, b, 0.09), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Exponents, PairLawTest,
+                         testing::Values(PairLaw{3, 5}, PairLaw{7, 13}, PairLaw{2, 4},
+                                         PairLaw{1, 3}, PairLaw{2.5, 4.5}, PairLaw{0.5, 1},
+                                         PairLaw{3, 6}));
+
+TEST(PairLaw, PotentialOfThePapersLaw) {
+  const BondClass bond{16000.0, 1096.64, std::sqrt(0.06854)};
+  const double u = 1.0 / 0.09;
+  // MODEL 2: E (-u/2 + R0^2 u^2/4).
+  EXPECT_NEAR(potential({3, 5}, bond, 0.09), -8000.0 * u + 274.16 * u * u, 1e-10);
+}
+
+// ---- constants and start ----
+
+TEST(Problem, SingleLiterals) {
+  EXPECT_EQ(single_literal(1096.64), 1096.6400146484375);  // MODEL 3
+  EXPECT_EQ(single_literal(0.098), 0.09799999743700027);
+  EXPECT_EQ(single_literal(0.000001), 9.999999974752427e-07);
+  EXPECT_EQ(single_literal(16000.0), 16000.0);
+}
+
+// Both components at once: GCC 12.2 drops the rounding of a pair unless it is kept from it.
+TEST(Problem, GravityAndStepAreRounded) {
+  Scene scene = paper_scene(2);
+  scene.gravity = {0.1, -0.098};
+  const Problem rounded = make_problem(scene);
+  EXPECT_EQ(rounded.gravity.x, static_cast<double>(0.1F));
+  EXPECT_EQ(rounded.gravity.y, -0.09799999743700027);
+  EXPECT_EQ(rounded.step, 9.999999974752427e-07);
+  scene.constants = Constants::double_precision;
+  EXPECT_EQ(make_problem(scene).gravity.y, -0.098);
+  EXPECT_EQ(make_problem(scene).step, 1e-6);
+}
+
+TEST(Problem, ClassesOfThePapersBall) {
+  const Problem problem = make_problem(paper_scene(2));
+  const std::array<float, 5> repulsion{1096.64F, 16328.0F, 1578.4F, 16462.8F, 2148.8F};
+  const std::array<double, 5> rest_squared{0.06854, 1.0205, 0.09865, 1.028925, 0.1343};
+  ASSERT_EQ(problem.classes.size(), 5U);
+  for (std::size_t c = 0; c < 5; ++c) {
+    EXPECT_EQ(problem.classes[c].attraction, 16000.0);
+    EXPECT_EQ(problem.classes[c].repulsion, static_cast<double>(repulsion[c]));
+    EXPECT_NEAR(problem.classes[c].rest, std::sqrt(rest_squared[c]), 1e-15);
+  }
+}
+
+TEST(Problem, RestFromGeometry) {
+  Scene scene = paper_scene(2);
+  scene.law.rest = Rest::geometry;
+  scene.constants = Constants::double_precision;
+  const Problem problem = make_problem(scene);
+  const double s = std::sin(std::numbers::pi / 120.0);
+  const double c = std::cos(std::numbers::pi / 120.0);
+  const std::array<double, 5> rest_squared{100 * s * s, 61 - 60 * c, 144 * s * s, 85 - 84 * c,
+                                           196 * s * s};  // MODEL 2
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(problem.classes[k].rest, std::sqrt(rest_squared[k]), 1e-13);
+    EXPECT_NEAR(problem.classes[k].repulsion, 16000.0 * rest_squared[k], 1e-9);
+  }
+}
+
+TEST(Problem, GeometryIsTheDistanceOfTheExactBall) {
+  Scene scene = paper_scene(2);
+  scene.law.rest = Rest::geometry;
+  scene.ball.rounding = Rounding::none;
+  scene.ball.radii = {10.0, 11.0, 12.0, 14.5};
+  scene.ball.per_ring = 50;
+  scene.ball.centre.y = 20.0;
+  const Problem p = make_problem(scene);
+  for (std::size_t i = 0; i < p.bonds.particles(); ++i) {
+    for (auto e = p.bonds.start[i]; e < p.bonds.start[i + 1]; ++e) {
+      const auto j = static_cast<std::size_t>(p.bonds.neighbour[static_cast<std::size_t>(e)]);
+      const double d = std::hypot(p.initial.x[i] - p.initial.x[j], p.initial.y[i] - p.initial.y[j]);
+      EXPECT_NEAR(d, p.classes[p.bonds.bond_class[static_cast<std::size_t>(e)]].rest, 1e-13);
+    }
+  }
+}
+
+TEST(Problem, StartHasFourDecimals) {
+  const State start = make_problem(paper_scene(5)).initial;
+  ASSERT_EQ(start.size(), 360U);
+  for (std::size_t i = 0; i < 360; ++i) {
+    for (const double v : {start.x[i], start.y[i], start.vx[i], start.vy[i]}) {
+      // The double nearest to a number of four decimals.
+      EXPECT_TRUE(same_bits(v, std::round(v * 1e4) / 1e4)) << "particle " << i + 1;
+    }
+    EXPECT_EQ(start.vx[i], 4.0);
+  }
+  EXPECT_EQ(start.x[0], 5.0);
+  EXPECT_EQ(start.y[0], 10.0);
+  EXPECT_EQ(start.x[1], 4.9931);  // 5 cos 3 deg = 4.993148
+  EXPECT_EQ(start.y[1], 10.2617);
+  EXPECT_EQ(start.x[120], 5.9979);  // 6 cos 1.5 deg = 5.997944
+}
+
+TEST(Problem, StartIsMirrorSymmetric) {
+  const State s = make_problem(paper_scene(2)).initial;
+  for (int ring = 0; ring < 3; ++ring) {
+    for (int column = 0; column < 120; ++column) {
+      const int mirrored = ring == 1 ? (59 - column + 120) % 120 : (60 - column + 120) % 120;
+      const auto i = static_cast<std::size_t>(120 * ring + column);
+      const auto j = static_cast<std::size_t>(120 * ring + mirrored);
+      EXPECT_TRUE(same_bits(s.x[i], 0.0 - s.x[j])) << "particles " << i + 1 << ", " << j + 1;
+      EXPECT_TRUE(same_bits(s.y[i], s.y[j])) << "particles " << i + 1 << ", " << j + 1;
+    }
+  }
+}
+
+TEST(Problem, TakesAnotherStart) {
+  const Scene scene = paper_scene(2);
+  State start = make_problem(scene).initial;
+  start.vx[3] = 1.5;
+  EXPECT_EQ(make_problem(scene, start).initial.vx[3], 1.5);
+  EXPECT_THROW(make_problem(scene, State(359)), SceneError);
+  start.y[100] = -1.0;
+  EXPECT_THROW(make_problem(scene, start), SceneError);
+  start.y[100] = nan;
+  EXPECT_THROW(make_problem(scene, start), SceneError);
+}
+
+TEST(Problem, RefusesABallBehindAWall) {
+  Scene scene = paper_scene(2);
+  scene.ball.centre.y = 6.9;
+  try {
+    make_problem(scene);
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.key, "wall[0]");
+    EXPECT_NE(std::string(error.what()).find("behind"), std::string::npos) << error.what();
+  }
+  scene.ball.centre.y = 7.0;  // touches
+  EXPECT_NO_THROW(make_problem(scene));
+}
+
+TEST(State, HashSeesEveryBit) {
+  const State state = make_problem(paper_scene(2)).initial;
+  for (auto member : {&State::x, &State::y, &State::vx, &State::vy}) {
+    State other = state;
+    (other.*member)[359] = std::nextafter((other.*member)[359], 100.0);
+    EXPECT_NE(state_hash(other), state_hash(state));
+  }
+  State negative = state;
+  negative.vx[0] = -0.0;
+  EXPECT_NE(state_hash(negative), state_hash(state));
+  EXPECT_EQ(state_hash(State(state)), state_hash(state));
+}
+
+// ---- scene limits ----
+
+TEST(Scene, StepsAreCountedInTheNominalStep) {
+  const Scene scene = paper_scene(2);
+  EXPECT_EQ(scene.steps_until(15.0), 15000000);
+  EXPECT_EQ(scene.steps_until(0.01), 10000);
+}
+
+TEST(Scene, AcceptsTheExamples) {
+  for (int example = 1; example <= 7; ++example) {
+    EXPECT_NO_THROW(make_problem(paper_scene(example))) << example;
+  }
+}
+
+struct BadValue {
+  std::string key;
+  std::function<void(Scene&)> spoil;
+};
+void PrintTo(const BadValue& bad, std::ostream* out) { *out << bad.key; }
+
+class SceneLimits : public testing::TestWithParam<BadValue> {};
+
+TEST_P(SceneLimits, NamesTheKeyAndWhatIsAllowed) {
+  Scene scene = paper_scene(2);
+  GetParam().spoil(scene);
+  try {
+    validate(scene);
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.key, GetParam().key);
+    EXPECT_FALSE(error.value.empty());
+    EXPECT_FALSE(error.allowed.empty());
+    EXPECT_NE(std::string(error.what()).find(error.allowed), std::string::npos);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ball, SceneLimits,
+    testing::Values(BadValue{"ball.radii", [](Scene& s) { s.ball.radii.clear(); }},
+                    BadValue{"ball.radii", [](Scene& s) { s.ball.radii.resize(1000000); }},
+                    BadValue{"ball.radii[0]", [](Scene& s) { s.ball.radii[0] = -5.0; }},
+                    BadValue{"ball.radii[0]", [](Scene& s) { s.ball.radii[0] = 0.0; }},
+                    BadValue{"ball.radii[1]", [](Scene& s) { s.ball.radii[1] = nan; }},
+                    BadValue{"ball.radii[1]", [](Scene& s) { s.ball.radii[1] = 5.0; }},
+                    BadValue{"ball.radii[2]", [](Scene& s) { s.ball.radii[2] = infinity; }},
+                    BadValue{"ball.per_ring", [](Scene& s) { s.ball.per_ring = 1000000000000; }},
+                    BadValue{"ball.per_ring", [](Scene& s) { s.ball.per_ring = 2; }},
+                    BadValue{"ball.per_ring", [](Scene& s) { s.ball.per_ring = -120; }},
+                    BadValue{"ball.centre", [](Scene& s) { s.ball.centre.x = nan; }},
+                    BadValue{"ball.velocity", [](Scene& s) { s.ball.velocity.y = infinity; }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Law, SceneLimits,
+    testing::Values(BadValue{"law.p", [](Scene& s) { s.law.p = 0.0; }},
+                    BadValue{"law.p", [](Scene& s) { s.law.p = nan; }},
+                    BadValue{"law.q", [](Scene& s) { s.law.q = 3.0; }},
+                    BadValue{"law.q", [](Scene& s) { s.law.q = infinity; }},
+                    BadValue{"law.q", [](Scene& s) { s.law.q = nan; }},
+                    BadValue{"law.elasticity", [](Scene& s) { s.law.elasticity = 0.0; }},
+                    BadValue{"law.elasticity", [](Scene& s) { s.law.elasticity = nan; }},
+                    BadValue{"law.rest", [](Scene& s) { s.ball.radii[2] = 8.0; }},
+                    BadValue{"gravity.acceleration", [](Scene& s) { s.gravity.y = nan; }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Wall, SceneLimits,
+    testing::Values(BadValue{"wall[0].normal",
+                             [](Scene& s) {
+                               s.walls[0].normal = {1.0, 1.0};
+                             }},
+                    BadValue{"wall[0].normal",
+                             [](Scene& s) {
+                               s.walls[0].normal = {0.0, 0.0};
+                             }},
+                    BadValue{"wall[0].normal", [](Scene& s) { s.walls[0].normal.y = nan; }},
+                    BadValue{"wall[0].offset", [](Scene& s) { s.walls[0].offset = infinity; }},
+                    BadValue{"wall[0].alpha", [](Scene& s) { s.walls[0].alpha = 1.5; }},
+                    BadValue{"wall[0].alpha", [](Scene& s) { s.walls[0].alpha = -0.1; }},
+                    BadValue{"wall[0].alpha", [](Scene& s) { s.walls[0].alpha = nan; }},
+                    BadValue{"wall[0].beta", [](Scene& s) { s.walls[0].beta = 0.5; }},
+                    BadValue{"wall[0].beta", [](Scene& s) { s.walls[0].beta = -1.5; }},
+                    BadValue{"wall[0].beta", [](Scene& s) { s.walls[0].beta = nan; }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    TimeAndOutput, SceneLimits,
+    testing::Values(BadValue{"time.step", [](Scene& s) { s.time.step = 0.0; }},
+                    BadValue{"time.step", [](Scene& s) { s.time.step = -1e-6; }},
+                    BadValue{"time.step", [](Scene& s) { s.time.step = nan; }},
+                    BadValue{"time.end", [](Scene& s) { s.time.end = -1.0; }},
+                    BadValue{"time.end", [](Scene& s) { s.time.end = 1e30; }},
+                    BadValue{"time.method", [](Scene& s) { s.time.method = "euler"; }},
+                    BadValue{"output.frames_every", [](Scene& s) { s.output.frames_every = 0.0; }},
+                    BadValue{"output.frames_every", [](Scene& s) { s.output.frames_every = nan; }},
+                    BadValue{"output.frames_at[1]",
+                             [](Scene& s) {
+                               s.output.frames_at = {0.0, 16.0};
+                             }},
+                    BadValue{"output.frames_at",
+                             [](Scene& s) {
+                               s.output.frames_every = 1.0;
+                               s.output.frames_at = {1.0};
+                             }},
+                    BadValue{"output.monitor_every",
+                             [](Scene& s) { s.output.monitor_every = 0.0; }}));
+
+}  // namespace
+}  // namespace bounce
