@@ -26,12 +26,14 @@
 //     a lane, a tile or a thread begins. A thread's tile computes the column before it once more,
 //     just for its left sums.
 //
-// Operations per column of R = 3 rings, 7 bonds, law (3, 5), one wall: a bond takes 2 subtractions,
-// 1 multiplication and 1 fma for R^2, 3 for F/R, 4 fma for the sums; the reciprocals 15
-// multiplications and 2 divisions a column; the 6 sums 1 addition, 1 fma each, less 10 where a left
-// sum starts; the wall 3 comparisons, 2 ands, 1 test. That is 7 x 8 + 15 + 6 = 77 multiplications
-// and fmas, 14 + 6 additions and 2 divisions: on two multiply-add ports 39 cycles a column and
-// vector.
+// Operations per column and vector, R = 3 rings, 7 bonds, law (3, 5), one wall (counted in the
+// compiled loop, the same for AVX2 and AVX-512):
+//   a bond: 2 subtractions; 2 for R^2, 3 for F/R, 4 for the sums          63 mul/fma, 14 sub
+//   the reciprocals: 9 + 6 multiplications, 2 divisions                   15 mul,      2 div
+//   a particle: 1 addition and 1 fma each for x and y                      6 fma,      6 add
+//   the floor: 3 comparisons, 2 ands, 1 test
+// 84 on the multiply-add ports: on two of them 42 cycles, 30 columns of vectors with 4 lanes, 15 with
+// 8. GCC 12 adds some 30 spills and as many reloads with 16 registers (AVX2), 12 with 32 (AVX-512).
 //
 // Not taken: an approximate reciprocal with Newton steps (as fast, other bits on other makers'
 // processors); particles of one ring side by side in a vector (unaligned loads, and sums that

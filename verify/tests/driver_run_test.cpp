@@ -75,10 +75,13 @@ class DriverRunTest : public testing::Test {
     }
     return child;
   }
-  // The exit code; 1000 + signal if it was killed.
+  // The exit code; 1000 + signal if it was killed, by us if it takes more than a minute.
   static int finish(pid_t child) {
     int status = 0;
-    waitpid(child, &status, 0);
+    for (int wait = 0; waitpid(child, &status, WNOHANG) == 0; ++wait) {
+      if (wait == 12000) kill(child, SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
   int run(const Words& words) { return finish(start(words)); }

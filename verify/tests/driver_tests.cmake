@@ -1,7 +1,9 @@
 # Tests of driver/, included by the CMakeLists.txt beside this file.
-add_executable(driver_scene_file_test ${CMAKE_CURRENT_LIST_DIR}/driver_scene_file_test.cpp)
-target_link_libraries(driver_scene_file_test PRIVATE bounce_driver GTest::gtest_main)
-gtest_discover_tests(driver_scene_file_test PROPERTIES LABELS driver)
+foreach(name driver_scene_file_test driver_schedule_test)
+  add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE bounce_driver GTest::gtest_main)
+  gtest_discover_tests(${name} PROPERTIES LABELS driver)
+endforeach()
 
 add_executable(driver_run_test ${CMAKE_CURRENT_LIST_DIR}/driver_run_test.cpp)
 target_compile_definitions(driver_run_test PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")

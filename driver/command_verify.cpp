@@ -1,0 +1,170 @@
+// bounce verify: the kernels against the oracle, as a table.
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "driver/commands.hpp"
+#include "driver/files.hpp"
+#include "driver/origin.hpp"
+#include "driver/progress.hpp"
+#include "driver/scene_file.hpp"
+#include "kernels/stepping/plan.hpp"
+#include "verify/equivalence.hpp"
+#include "verify/oracle.hpp"
+
+namespace bounce {
+namespace {
+
+constexpr std::int64_t default_steps = 1000000;
+constexpr std::int64_t quick_steps = 50000;
+constexpr std::int64_t wall_steps = 100000;  // of each scene once more, started at the wall
+
+struct Options {
+  std::vector<std::string> scenes;
+  bool quick = false;
+  bool full = false;
+  std::string vector = "auto";
+  std::string out;
+};
+
+// One scene to be run, and for how long.
+struct Case {
+  std::string name;
+  Scene scene;
+  std::int64_t steps = 0;
+  bool observables = false;
+  std::vector<EquivalenceRow> rows;
+};
+
+std::vector<Case> make_cases(const Options& options) {
+  std::vector<Case> cases;
+  for (const std::string& name : options.scenes) {
+    const Scene scene = SceneFile::find(name).scene();
+    if (const std::string refusal = Oracle::refusal(scene); !refusal.empty()) {
+      throw PlanError(fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
+    }
+    const std::int64_t whole = scene.steps_until(scene.time.end);
+    const std::int64_t steps = options.full ? whole : options.quick ? quick_steps : default_steps;
+    cases.push_back({name, scene, std::min(steps, whole), true, {}});
+  }
+  for (const std::string& name : options.scenes) {
+    const Scene scene = at_the_wall(SceneFile::find(name).scene());
+    const std::int64_t steps = options.quick ? quick_steps : wall_steps;
+    cases.push_back({name + " at the wall", scene, steps, true, {}});
+  }
+  return cases;
+}
+
+// Cases on all cores, each on one; the longest first, so that none is left alone at the end.
+void run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& kernels) {
+  std::vector<Case*> order;
+  std::int64_t total = 0;
+  for (Case& each : cases) {
+    order.push_back(&each);
+    total += each.steps;
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Case* a, const Case* b) { return a->steps > b->steps; });
+  std::vector<std::atomic<std::int64_t>> done(order.size());
+  Progress progress(isatty(STDERR_FILENO) != 0, total, 1e-6);
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    Case& each = *order[i];
+    const auto report = [&](std::int64_t steps) {
+      done[i].store(steps);
+      if (omp_get_thread_num() != 0) return;
+      std::int64_t sum = 0;
+      for (const auto& part : done) sum += part.load();
+      progress.update(sum);
+    };
+    try {
+      each.rows =
+          check_equivalence(each.name, each.scene, each.steps, each.observables, kernels, report);
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::string table_of(const std::vector<Case>& cases) {
+  std::string text = fmt::format("{:<23} {:<7} {:<34} {:<38} {:<22} {}\n", "scene", "kernel",
+                                 "check", "measured", "allowed", "");
+  for (const Case& each : cases) {
+    for (const EquivalenceRow& row : each.rows) {
+      text += fmt::format("{:<23} {:<7} {:<34} {:<38} {:<22} {}\n", row.scene, row.kernel,
+                          row.check, row.measured, row.allowed, row.pass ? "ok" : "FAILED");
+    }
+  }
+  return text;
+}
+
+constexpr const char* explanation =
+    "strict: the oracle's bits at every step. csr, ring: velocities within the rounding of one "
+    "kick,\n"
+    "positions within one last place at the first differing step; from then on at most ten times "
+    "as far "
+    "off\n"
+    "as a ball that was disturbed by one ULP at its start (two such balls run along). Differences "
+    "are\n"
+    "the largest so far; observables are compared every 10 000 steps.\n";
+
+int verify(const Options& options) {
+  std::vector<Case> cases = make_cases(options);
+  run_cases(cases, kernels_under_test(options.vector));
+  std::size_t rows = 0;
+  std::size_t failed = 0;
+  for (const Case& each : cases) {
+    rows += each.rows.size();
+    failed += static_cast<std::size_t>(std::count_if(
+        each.rows.begin(), each.rows.end(), [](const EquivalenceRow& row) { return !row.pass; }));
+  }
+  const Origin origin = find_origin();
+  const std::string verdict =
+      fmt::format("{}: {} of {} rows hold",
+                  failed == 0 && rows > 0 ? "equivalent" : "NOT EQUIVALENT", rows - failed, rows);
+  const std::string text =
+      fmt::format("{}\n{}\n{}\ncommit {}, {} {}, {}, {}\n", table_of(cases), explanation, verdict,
+                  origin.commit, origin.compiler, origin.flags, origin.cpu, origin.date);
+  fmt::print("{}", text);
+  if (!options.out.empty()) write_file_whole(options.out, text);
+  return failed == 0 && rows > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& program, CommandContext& context) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "verify", "Check the kernels against the oracle (exit 1 if one fails)");
+  command->add_option("SCENES", options->scenes, "Scenes to run (default: example-1 to example-7)");
+  auto* quick = command->add_flag("--quick", options->quick, "50 000 steps of each scene");
+  command->add_flag("--full", options->full, "The scenes' full length (default: 1 million steps)")
+      ->excludes(quick);
+  command->add_option("--vector", options->vector, "auto, avx2 or avx512");
+  command->add_option("--out", options->out, "Write the table to this file, too");
+  command->footer(
+      "Each scene is also run for a short while from just above its wall, at the speed of its\n"
+      "impact, so that short checks reach the contact.\n"
+      "Examples:\n"
+      "  bounce verify --quick\n"
+      "  bounce verify example-2 example-5\n"
+      "  bounce verify --full --out equivalence.txt    (about half an hour on two cores)\n");
+  command->callback([options, &context] {
+    if (options->scenes.empty()) {
+      for (int i = 1; i <= 7; ++i) options->scenes.push_back("example-" + std::to_string(i));
+    }
+    context.exit_code = verify(*options);
+  });
+}
+
+}  // namespace bounce

@@ -1,0 +1,67 @@
+// Are the kernels right? Each is run beside the oracle on a whole scene and compared.
+//
+// What is demanded, and why
+//  - `strict` does the listing's operations in the listing's order: the same bits, at every step.
+//  - The fast kernels round otherwise. At the first step at which a bit differs, velocities may be
+//  off
+//    by the rounding of a kick and positions by one ULP of the largest coordinate.
+//  - From there on a kernel that only rounds otherwise does to the ball what a disturbance of one
+//  ULP
+//    does. So two copies of the ball, disturbed by one ULP at the start, are run along (with
+//    `strict`, whose bits are the oracle's), and a kernel may be off by ten times what either copy
+//    was off at most so far: ten, because two disturbances are two samples of how far rounding
+//    carries, which after the impact grows exponentially.
+//  - The same for what a person would measure on the whole run: heights, energies, contact.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernels/model/problem.hpp"
+#include "kernels/stepping/stepper.hpp"
+
+namespace bounce {
+
+/// A kernel to be checked: how to make it from a problem.
+struct KernelUnderTest {
+  std::string name;
+  bool same_bits = false;  ///< it claims the oracle's bits
+  std::function<std::unique_ptr<Stepper>(const Problem&)> make;
+};
+
+/// strict, csr and ring as plans would make them, with the given vector target ("auto", ...).
+std::vector<KernelUnderTest> kernels_under_test(const std::string& vector = "auto");
+
+/// One line of the table. Numbers are printed as they were compared.
+struct EquivalenceRow {
+  std::string scene;
+  std::string kernel;
+  std::string check;
+  std::string measured;
+  std::string allowed;
+  bool pass = false;
+};
+
+/// Called now and then with the steps done so far.
+using EquivalenceProgress = std::function<void(std::int64_t done)>;
+
+/// Runs the scene for `steps` steps on the oracle and on the kernels. `observables` adds the rows
+/// on heights, energies and contact. Throws std::invalid_argument if the oracle cannot run the
+/// scene.
+std::vector<EquivalenceRow> check_equivalence(const std::string& name, const Scene& scene,
+                                              std::int64_t steps, bool observables,
+                                              std::span<const KernelUnderTest> kernels,
+                                              const EquivalenceProgress& progress = {});
+
+/// The scene with its ball just above the wall it will meet, at the speed it will have there:
+/// contact within some ten thousand steps, so that short checks reach the walls too.
+Scene at_the_wall(const Scene& scene);
+
+/// |a - b| in units of the last place of the larger one; infinite if either is not finite.
+double ulps_between(double a, double b);
+
+}  // namespace bounce
