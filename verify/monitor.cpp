@@ -15,6 +15,11 @@ namespace {
 // sign.
 constexpr double rounding_share = 1e-9;
 
+// How often the elastic energy of the start may come and go through the method's own error: the
+// swing of a vibration at 82 % of the edge of stability, or of all of them, stiff and soft, nearer.
+// Example 2 gains 3 times its elastic energy at the last stable step, Example 7 5 times.
+constexpr double elastic_swing = 10.0;
+
 // A sum with the rounding errors kept aside (Neumaier), found without a branch (Knuth's two-sum):
 // signs of the terms are as good as random here.
 class CompensatedSum {
@@ -176,7 +181,7 @@ Sample measure(const Problem& problem, const State& state) {
 Watch::Watch(const Problem& problem, const State& start)
     : problem_(&problem),
       start_(measure(problem, start)),
-      motion_(start_.kinetic + start_.bond - rest_bond_energy(problem)),
+      motion_(start_.kinetic + elastic_swing * (start_.bond - rest_bond_energy(problem))),
       floor_(rounding_share * (start_.kinetic + std::abs(start_.bond) + std::abs(start_.gravity))) {
 }
 
@@ -189,8 +194,8 @@ std::optional<Trouble> Watch::check(const State& state, const Sample& sample) co
   std::string what =
       "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite";
   if (std::isfinite(gain)) {
-    what = "energy jumped by " + print(gain) + " erg, where motion and fall had only " +
-           print(allowed_gain()) + " erg to give (a smaller time step may help)";
+    what = "energy jumped by " + print(gain) + " erg, more than the " + print(allowed_gain()) +
+           " erg that start and fall account for (a smaller time step may help)";
   }
   return trouble_at(std::move(what), sample.ratio_first, sample.ratio_second,
                     sample.smallest_ratio);

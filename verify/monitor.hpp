@@ -42,10 +42,12 @@ struct Trouble {
 };
 
 /// Looks at a run from time to time. Walls only take energy and the scheme conserves it nearly, so
-/// energy that appears from nowhere, more than all the ball could have set into motion since the
-/// start, means instability: its kinetic and elastic energy at the start, and the greatest fall
-/// since. (Motion seen since must not count: in an unstable run it grows with the energy that it
-/// should catch.)
+/// energy that appears from nowhere, more than the ball could have set into motion since the start,
+/// means instability. What it could: its kinetic energy at the start, the greatest fall since, and
+/// ten times its elastic energy at the start, because near the edge of stability the method itself
+/// makes the energy of a vibration w swing by (1 + a)/(1 - a), a = w dt/2, without being unstable.
+/// (Motion seen since must not count: in an unstable run it grows with the energy that it should
+/// catch.)
 class Watch {
  public:
   Watch(const Problem& problem, const State& start);
@@ -59,7 +61,7 @@ class Watch {
  private:
   const Problem* problem_;
   Sample start_;
-  double motion_;      ///< kinetic + elastic energy at the start
+  double motion_;      ///< kinetic energy and swing of the elastic energy at the start
   double floor_;       ///< energy that rounding may make
   double fall_ = 0.0;  ///< greatest gravity energy set free since the start
 };

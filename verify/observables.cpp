@@ -27,6 +27,11 @@ double flattening(const Points& x, const Points& y) {
   return 1.0 - std::sqrt(std::max(squares[0], 0.0) / squares[1]);
 }
 
+// Without PropagateNaN Eigen may drop a NaN.
+double extent(const Points& values) {
+  return values.maxCoeff<Eigen::PropagateNaN>() - values.minCoeff<Eigen::PropagateNaN>();
+}
+
 // Signed area of a closed polygon, positive if it runs counter-clockwise.
 double area(const Points& x, const Points& y) {
   double twice = 0.0;
@@ -53,8 +58,8 @@ Shape measure_shape(const State& state, int rings) {
   const Eigen::ArrayXd dx = x - x.mean();
   const Eigen::ArrayXd dy = y - y.mean();
   Shape shape;
-  shape.width = x.maxCoeff() - x.minCoeff();
-  shape.height = y.maxCoeff() - y.minCoeff();
+  shape.width = extent(x);
+  shape.height = extent(y);
   shape.flattening =
       flattening(points(state.x, n - per_ring, per_ring), points(state.y, n - per_ring, per_ring));
   shape.enclosed = area(points(state.x, 0, per_ring), points(state.y, 0, per_ring));

@@ -32,8 +32,9 @@
 //   the reciprocals: 9 + 6 multiplications, 2 divisions                   15 mul,      2 div
 //   a particle: 1 addition and 1 fma each for x and y                      6 fma,      6 add
 //   the floor: 3 comparisons, 2 ands, 1 test
-// 84 on the multiply-add ports: on two of them 42 cycles, 30 columns of vectors with 4 lanes, 15 with
-// 8. GCC 12 adds some 30 spills and as many reloads with 16 registers (AVX2), 12 with 32 (AVX-512).
+// 84 on the multiply-add ports: on two of them 42 cycles, 30 columns of vectors with 4 lanes, 15
+// with
+// 8. GCC 12 adds some 28 spills and more reloads with 16 registers (AVX2), 10 with 32 (AVX-512).
 //
 // Not taken: an approximate reciprocal with Newton steps (as fast, other bits on other makers'
 // processors); particles of one ring side by side in a vector (unaligned loads, and sums that
@@ -66,13 +67,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #define BOUNCE_UNROLL _Pragma("GCC unroll 16")
 
-/// Reciprocals of N values, up to four sharing one division.
+inline constexpr int most_in_group = 4;  // bonds that share a division
+
+/// Reciprocals of N values by one division.
 template <int N, class V>
 HWY_INLINE void reciprocals(const V* r2, V* u) {
-  if constexpr (N > 4) {
-    reciprocals<4>(r2, u);
-    reciprocals<N - 4>(r2 + 4, u + 4);
-  } else if constexpr (N == 4) {
+  static_assert(N <= most_in_group);
+  if constexpr (N == 4) {
     const V ab = hn::Mul(r2[0], r2[1]), cd = hn::Mul(r2[2], r2[3]);
     const V one_over = hn::Div(hn::Set(hn::DFromV<V>(), 1.0), hn::Mul(ab, cd));
     const V over_ab = hn::Mul(one_over, cd), over_cd = hn::Mul(one_over, ab);
@@ -230,48 +231,53 @@ class RingStepper final : public StagedStepper {
     }
   }
 
+  // Bond b of a column goes from ring `from` at this column to ring `to`, at this or the next one.
+  struct BondPlace {
+    int from, to;
+    bool next;
+  };
+  static constexpr BondPlace place(int b) {
+    if (b < R) return {b, b, true};
+    const int inner = (b - R) / 2;
+    if ((b - R) % 2 == 0) return {inner, inner + 1, false};
+    return inner % 2 == 1 ? BondPlace{inner, inner + 1, true} : BondPlace{inner + 1, inner, true};
+  }
+
+  // Bonds `first` to `last` - 1 of column `here`, which share a division.
+  template <int first, int last>
+  HWY_INLINE void bond_group(const Constants& c, const Column& here, const Column& next,
+                             Column& rest, Column& left) const {
+    constexpr int count = last - first;
+    V dx[count], dy[count], r2[count], u[count];
+    BOUNCE_UNROLL for (int i = 0; i < count; ++i) {
+      const BondPlace p = place(first + i);
+      dx[i] = hn::Sub(here.x[p.from], p.next ? next.x[p.to] : here.x[p.to]);
+      dy[i] = hn::Sub(here.y[p.from], p.next ? next.y[p.to] : here.y[p.to]);
+      r2[i] = hn::MulAdd(dy[i], dy[i], hn::Mul(dx[i], dx[i]));
+    }
+    reciprocals<count>(r2, u);
+    BOUNCE_UNROLL for (int i = 0; i < count; ++i) {
+      const int b = first + i;
+      const BondPlace p = place(b);
+      const V f = law_.force_over_distance(d, u[i], c.attraction[b], c.repulsion[b]);
+      rest.x[p.from] = hn::MulAdd(f, dx[i], rest.x[p.from]);
+      rest.y[p.from] = hn::MulAdd(f, dy[i], rest.y[p.from]);
+      // The bond along a ring is the first from the left: it starts that sum, from the gravity
+      // kick.
+      Column& on = p.next ? left : rest;
+      on.x[p.to] = hn::NegMulAdd(f, dx[i], b < R ? c.gx : on.x[p.to]);
+      on.y[p.to] = hn::NegMulAdd(f, dy[i], b < R ? c.gy : on.y[p.to]);
+    }
+  }
+
   // All bonds of column `here`: adds to `rest` what acts on it, gives in `left` what acts on
-  // `next`.
+  // `next`. Group by group, so that few of their vectors are alive at a time.
+  template <int first = 0>
   HWY_INLINE void bonds(const Constants& c, const Column& here, const Column& next, Column& rest,
                         Column& left) const {
-    V dx[bonds_a_column], dy[bonds_a_column], r2[bonds_a_column], u[bonds_a_column];
-    BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
-      dx[r] = hn::Sub(here.x[r], next.x[r]);
-      dy[r] = hn::Sub(here.y[r], next.y[r]);
-    }
-    BOUNCE_UNROLL for (int r = 0; r + 1 < R; ++r) {
-      const int staggered = r % 2 == 1 ? r : r + 1, plain = r % 2 == 1 ? r + 1 : r;
-      dx[R + 2 * r] = hn::Sub(here.x[r], here.x[r + 1]);
-      dy[R + 2 * r] = hn::Sub(here.y[r], here.y[r + 1]);
-      dx[R + 2 * r + 1] = hn::Sub(here.x[staggered], next.x[plain]);
-      dy[R + 2 * r + 1] = hn::Sub(here.y[staggered], next.y[plain]);
-    }
-    BOUNCE_UNROLL for (int b = 0; b < bonds_a_column; ++b) {
-      r2[b] = hn::MulAdd(dy[b], dy[b], hn::Mul(dx[b], dx[b]));
-    }
-    reciprocals<bonds_a_column>(r2, u);
-    BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
-      const V f = law_.force_over_distance(d, u[r], c.attraction[r], c.repulsion[r]);
-      rest.x[r] = hn::MulAdd(f, dx[r], rest.x[r]);
-      rest.y[r] = hn::MulAdd(f, dy[r], rest.y[r]);
-      left.x[r] = hn::NegMulAdd(f, dx[r], c.gx);
-      left.y[r] = hn::NegMulAdd(f, dy[r], c.gy);
-    }
-    BOUNCE_UNROLL for (int r = 0; r + 1 < R; ++r) {
-      const int staggered = r % 2 == 1 ? r : r + 1, plain = r % 2 == 1 ? r + 1 : r;
-      const int same = R + 2 * r, diagonal = same + 1;
-      const V f = law_.force_over_distance(d, u[same], c.attraction[same], c.repulsion[same]);
-      rest.x[r] = hn::MulAdd(f, dx[same], rest.x[r]);
-      rest.y[r] = hn::MulAdd(f, dy[same], rest.y[r]);
-      rest.x[r + 1] = hn::NegMulAdd(f, dx[same], rest.x[r + 1]);
-      rest.y[r + 1] = hn::NegMulAdd(f, dy[same], rest.y[r + 1]);
-      const V g =
-          law_.force_over_distance(d, u[diagonal], c.attraction[diagonal], c.repulsion[diagonal]);
-      rest.x[staggered] = hn::MulAdd(g, dx[diagonal], rest.x[staggered]);
-      rest.y[staggered] = hn::MulAdd(g, dy[diagonal], rest.y[staggered]);
-      left.x[plain] = hn::NegMulAdd(g, dx[diagonal], left.x[plain]);
-      left.y[plain] = hn::NegMulAdd(g, dy[diagonal], left.y[plain]);
-    }
+    constexpr int last = std::min(first + most_in_group, bonds_a_column);
+    bond_group<first, last>(c, here, next, rest, left);
+    if constexpr (last < bonds_a_column) bonds<last>(c, here, next, rest, left);
   }
 
   // Kick, drift and wall of a column whose sums are complete.

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# The throughput benchmark on 2 cores: results/throughput.json (raw, with its origin) and
+# results/throughput.md (the table). From a clean tree only, on an otherwise idle machine.
+#   scripts/bench.sh [--out DIR] [--allow-dirty] [-- BENCHMARK_OPTIONS]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+out=results
+dirty=no
+while [ $# -gt 0 ]; do
+  case $1 in
+    --out) out=${2:?--out needs a folder}; shift 2 ;;
+    --allow-dirty) dirty=yes; shift ;;
+    --) shift; break ;;
+    -h|--help) sed -n '2,4s/^# \?//p' "$0"; exit 0 ;;
+    *) echo "bench.sh: unknown option $1 (--out DIR, --allow-dirty, -- BENCHMARK_OPTIONS)" >&2; exit 2 ;;
+  esac
+done
+if [ "$dirty" = no ] && [ -n "$(git status --porcelain)" ]; then
+  echo "bench.sh: the tree has uncommitted changes; results come from clean trees (--allow-dirty)" >&2
+  exit 2
+fi
+
+scripts/build.sh release
+
+mkdir -p "$out"
+# Threads stay on their cores and spin between regions.
+OMP_PROC_BIND=close OMP_PLACES=cores OMP_WAIT_POLICY=active \
+  build/release/bounce_bench --benchmark_out="$out/.throughput.json" \
+  --benchmark_out_format=json "$@"
+/usr/bin/python3 scripts/bench_table.py "$out/.throughput.json" > "$out/.throughput.md"
+mv "$out/.throughput.json" "$out/throughput.json"
+mv "$out/.throughput.md" "$out/throughput.md"
+echo "bench.sh: $out/throughput.json and $out/throughput.md"

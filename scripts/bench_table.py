@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""Prints a Google Benchmark JSON of bounce_bench as a Markdown table, with its origin."""
+import json
+import math
+import sys
+
+
+def cell(value, form):
+    """A number as text; a missing or non-finite one is a dash, never a plausible figure."""
+    if not isinstance(value, (int, float)) or not math.isfinite(value):
+        return "-"
+    return format(value, form)
+
+
+def rows(runs):
+    for run in runs:
+        name, _, rest = run["name"].partition("/threads:")
+        threads = rest.split("/")[0]
+        if run.get("error_occurred"):
+            yield [name, threads, "ERROR: " + run["error_message"], "", "", "", ""]
+            continue
+        yield [
+            name,
+            threads,
+            cell(run.get("ns_per_step"), ".0f"),
+            cell(run.get("bonds_per_s", math.nan) / 1e6, ".0f"),
+            cell(run.get("x_oracle_O3"), ".2f"),
+            cell(run.get("x_oracle_Ofast"), ".2f"),
+            cell(run.get("difference_cm"), ".1e"),
+        ]
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: bench_table.py FILE.json")
+    with open(sys.argv[1], encoding="utf-8") as file:
+        data = json.load(file)
+    context = data["context"]
+    print("# Throughput, Example 2, double precision\n")
+    print("Per step of one ball; medians of 31 interleaved turns. × is the ratio to the scalar oracle")
+    print("compiled with the flags named, made turn by turn; the absolute times swing with the clock.")
+    print("The last column is the largest difference from the oracle's positions after 1000 steps.\n")
+    print("| row | threads | ns/step | 10^6 bonds/s | × oracle -O3 | × oracle -Ofast | difference, cm |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
+    for row in rows(data["benchmarks"]):
+        print("| " + " | ".join(row) + " |")
+    print(f"\nMade by `scripts/bench.sh` at commit {context['commit']}, {context['date']}, on "
+          f"{context['cpu']} ({context['num_cpus']} cores), {context['compiler']}, "
+          f"{context['flags']} (oracles: -march=native).")
+    if any(run.get("error_occurred") for run in data["benchmarks"]):
+        sys.exit("bench_table.py: a row's state is wrong")
+
+
+main()

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Tests everything: installs what is missing, builds with warnings as errors, compares the kernels
+# with the oracle (bounce verify --quick), then runs all tests. Exit code 0 only if all of it holds.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install.sh
+scripts/build.sh ci
+failed=()
+build/ci/bounce verify --quick || failed+=('bounce verify --quick (its table is above the tests)')
+ctest --preset ci -j2 --output-log build/ci/ctest.log || failed+=(ctest)
+# Again at the end: ctest lists what it skipped after its summary.
+grep 'tests passed' build/ci/ctest.log || failed+=('ctest, which wrote no summary')
+if ((${#failed[@]})); then
+  printf 'test.sh: failed: %s\n' "${failed[@]}" >&2
+  exit 1
+fi
