@@ -70,8 +70,12 @@ std::string_view name_of(VectorTarget target) {
 std::vector<VectorTarget> available_vectors() {
   std::vector<VectorTarget> available;
   const auto targets = static_cast<std::int64_t>(hwy::SupportedTargets());
-  if ((targets & HWY_AVX3) != 0) available.push_back(VectorTarget::avx512);
-  if ((targets & HWY_AVX2) != 0) available.push_back(VectorTarget::avx2);
+  // Highway 1.0.3 asks the processor, the compiler's check also the operating system, which may not
+  // save the wide registers.
+  const bool saves_512 = __builtin_cpu_supports("avx512f") != 0;
+  const bool saves_256 = __builtin_cpu_supports("avx2") != 0;
+  if ((targets & HWY_AVX3) != 0 && saves_512) available.push_back(VectorTarget::avx512);
+  if ((targets & HWY_AVX2) != 0 && saves_256) available.push_back(VectorTarget::avx2);
   return available;
 }
 

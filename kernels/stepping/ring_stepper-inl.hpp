@@ -160,8 +160,10 @@ class RingStepper final : public StagedStepper {
     V x[R], y[R];
   };
 
-  // A stage's constants, a vector each: they are read as memory operands.
-  struct Constants {
+  // A stage's constants, a vector each: they are read as memory operands. Aligned by hand: a
+  // standard container compiles its allocation for the file's target, not for this one, and would
+  // give vectors of eight the alignment of vectors of four.
+  struct alignas(64) Constants {
     V attraction[bonds_a_column], repulsion[bonds_a_column];
     V gx, gy, drift;
   };
