@@ -1,13 +1,14 @@
 #include "driver/extended_xyz.hpp"
 
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace bounce {
 
-ExtendedXyz::ExtendedXyz(const std::filesystem::path& path, std::size_t per_ring)
-    : path_(path), per_ring_(per_ring) {}
+ExtendedXyz::ExtendedXyz(std::filesystem::path path, std::size_t per_ring)
+    : path_(std::move(path)), per_ring_(per_ring) {}
 
 void ExtendedXyz::write(std::int64_t step, double time, const State& state) {
   fmt::memory_buffer out;

@@ -15,7 +15,7 @@ namespace bounce {
 /// with species, position (cm, z = 0), velocity (cm/s) and ring (from 1).
 class ExtendedXyz {
  public:
-  ExtendedXyz(const std::filesystem::path& path, std::size_t per_ring);
+  ExtendedXyz(std::filesystem::path path, std::size_t per_ring);
   void write(std::int64_t step, double time, const State& state);
   void close();
 

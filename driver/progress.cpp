@@ -1,5 +1,6 @@
 #include "driver/progress.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -12,7 +13,7 @@ constexpr auto interval = std::chrono::milliseconds(100);
 constexpr std::int64_t bar_width = 30;  // characters
 
 std::string time_left(double seconds) {
-  const auto s = static_cast<std::int64_t>(seconds + 0.5);
+  const auto s = std::llround(seconds);
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
   if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return fmt::format("{} s", s);

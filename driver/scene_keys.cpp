@@ -63,6 +63,7 @@ bool read(const toml::node& node, std::vector<double>& out) {
 }
 std::string write(const std::vector<double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double x : values) texts.push_back(write(x));
   return texts.empty() ? "" : fmt::format("[{}]", fmt::join(texts, ", "));
 }

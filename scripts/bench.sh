@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The throughput benchmark on 2 cores: results/throughput.json (raw, with its origin) and
-# results/throughput.md (the table). From a clean tree only, on an otherwise idle machine.
+# results/throughput.md (the table), which goes into README, too. From a clean tree only, on an otherwise idle machine.
 #   scripts/bench.sh [--out DIR] [--allow-dirty] [-- BENCHMARK_OPTIONS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -21,7 +21,8 @@ if [ "$dirty" = no ] && [ -n "$(git status --porcelain)" ]; then
   exit 2
 fi
 
-scripts/build.sh release
+scripts/install.sh
+scripts/build.sh release bounce_bench
 
 mkdir -p "$out"
 # Threads stay on their cores and spin between regions.
@@ -31,4 +32,5 @@ OMP_PROC_BIND=close OMP_PLACES=cores OMP_WAIT_POLICY=active \
 /usr/bin/python3 scripts/bench_table.py "$out/.throughput.json" > "$out/.throughput.md"
 mv "$out/.throughput.json" "$out/throughput.json"
 mv "$out/.throughput.md" "$out/throughput.md"
+if [ "$out" = results ]; then scripts/update_readme.py; fi
 echo "bench.sh: $out/throughput.json and $out/throughput.md"
