@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "kernels/stepping/plan.hpp"
 #include "verify/monitor.hpp"
@@ -117,8 +118,8 @@ struct Runner {
 
 class Comparison {
  public:
-  Comparison(const std::string& name, const Scene& scene, std::span<const KernelUnderTest> kernels)
-      : name_(name),
+  Comparison(std::string name, const Scene& scene, std::span<const KernelUnderTest> kernels)
+      : name_(std::move(name)),
         scene_(scene),
         problem_(make_problem(scene)),
         oracle_(scene, problem_.initial),

@@ -24,8 +24,6 @@
 
 namespace bounce::BOUNCE_LISTING_VARIANT {
 
-void run_listing(Listing& ball, std::span<const Wall> walls, std::int64_t steps);
-
 namespace {
 
 struct Force {

@@ -22,7 +22,7 @@ double flattening(const Points& x, const Points& y) {
   Eigen::Matrix2d gyration;
   gyration << dx.square().mean(), (dx * dy).mean(), (dx * dy).mean(), dy.square().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(gyration, Eigen::EigenvaluesOnly);
-  const Eigen::Vector2d squares = solver.eigenvalues();  // increasing
+  const Eigen::Vector2d& squares = solver.eigenvalues();  // increasing
   // A straight line of points may round to a squared axis just below zero.
   return 1.0 - std::sqrt(std::max(squares[0], 0.0) / squares[1]);
 }

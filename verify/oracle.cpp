@@ -37,7 +37,7 @@ RestSquares exact_rest(const std::vector<double>& radii) {
 // (its SLP vectoriser takes double -> float -> double of a pair for a copy).
 double literal(const Scene& scene, double value) {
   if (scene.constants == Constants::double_precision) return value;
-  const volatile float single = static_cast<float>(value);
+  const volatile auto single = static_cast<float>(value);
   return static_cast<double>(single);
 }
 

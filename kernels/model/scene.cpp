@@ -110,11 +110,11 @@ void validate_output(const OutputSpec& output, const TimeSpec& time) {
 
 }  // namespace
 
-SceneError::SceneError(std::string key_, std::string value_, std::string allowed_)
-    : std::invalid_argument(key_ + " = " + value_ + ": allowed is " + allowed_),
-      key(std::move(key_)),
-      value(std::move(value_)),
-      allowed(std::move(allowed_)) {}
+SceneError::SceneError(std::string at_key, std::string found, std::string may_be)
+    : std::invalid_argument(at_key + " = " + found + ": allowed is " + may_be),
+      key(std::move(at_key)),
+      value(std::move(found)),
+      allowed(std::move(may_be)) {}
 
 std::int64_t Scene::steps_until(double t) const { return std::llround(t / time.step); }
 

@@ -96,7 +96,7 @@ struct Scene {
 /// A value that a scene may not have: which key, what stands there, what is allowed.
 class SceneError : public std::invalid_argument {
  public:
-  SceneError(std::string key, std::string value, std::string allowed);
+  SceneError(std::string at_key, std::string found, std::string may_be);
   std::string key;      ///< as in the scene file: "ball.radii[1]", "wall[0].alpha"
   std::string value;    ///< what was given
   std::string allowed;  ///< what may stand there

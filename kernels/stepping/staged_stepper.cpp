@@ -1,5 +1,7 @@
 #include "kernels/stepping/staged_stepper.hpp"
 
+#include <utility>
+
 namespace bounce {
 namespace {
 
@@ -16,7 +18,7 @@ StageConstants constants_of(const Problem& problem, Stage stage) {
 
 }  // namespace
 
-StagedStepper::StagedStepper(const Problem& problem) : problem_(problem) {
+StagedStepper::StagedStepper(Problem problem) : problem_(std::move(problem)) {
   const Method& method = *problem_.method;
   for (const Stage& stage : method.stages) fresh_.push_back(constants_of(problem_, stage));
   if (!method.first_same_as_last) return;

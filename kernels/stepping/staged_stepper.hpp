@@ -20,7 +20,7 @@ struct StageConstants {
 
 class StagedStepper : public Stepper {
  public:
-  explicit StagedStepper(const Problem& problem);
+  explicit StagedStepper(Problem problem);
 
   void advance(std::int64_t steps) final;
   [[nodiscard]] State state() const final;
