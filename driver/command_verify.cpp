@@ -114,7 +114,7 @@ constexpr const char* explanation =
     "positions within one last place at the first differing step; from then on at most ten times "
     "as far "
     "off\n"
-    "as a ball that was disturbed by one ULP at its start (two such balls run along). Differences "
+    "as a ball that was disturbed by one ULP at its start (six such balls run along). Differences "
     "are\n"
     "the largest so far; observables are compared every 10 000 steps.\n";
 
@@ -158,7 +158,7 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
       "Examples:\n"
       "  bounce verify --quick\n"
       "  bounce verify example-2 example-5\n"
-      "  bounce verify --full --out equivalence.txt    (about half an hour on two cores)\n");
+      "  bounce verify --full --out equivalence.txt    (about 45 minutes on two cores)\n");
   command->callback([options, &context] {
     if (options->scenes.empty()) {
       for (int i = 1; i <= 7; ++i) options->scenes.push_back("example-" + std::to_string(i));

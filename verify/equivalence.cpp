@@ -20,7 +20,7 @@ constexpr std::int64_t single_steps = 1000;    // compared one by one, then by t
 constexpr std::int64_t chunk = 1000;           // steps
 constexpr std::int64_t sample_every = 10000;   // steps between two samples of the observables
 constexpr double disturbances_allowed = 10.0;  // see the head of equivalence.hpp
-constexpr std::uint32_t disturbed_copies = 2;
+constexpr std::uint32_t disturbed_copies = 6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr std::array<const char*, 4> array_names{"x", "y", "vx", "vy"};

@@ -7,10 +7,13 @@
 //    by the rounding of a kick and positions by one ULP of the largest coordinate.
 //  - From there on a kernel that only rounds otherwise does to the ball what a disturbance of one
 //  ULP
-//    does. So two copies of the ball, disturbed by one ULP at the start, are run along (with
-//    `strict`, whose bits are the oracle's), and a kernel may be off by ten times what either copy
-//    was off at most so far: ten, because two disturbances are two samples of how far rounding
-//    carries, which after the impact grows exponentially.
+//    does. So six copies of the ball, disturbed by one ULP at the start, are run along (with
+//    `strict`, whose bits are the oracle's), and a kernel may be off by ten times what any copy was
+//    off at most so far. Ten, because copies are samples of how far rounding carries, which after
+//    the impact grows exponentially. Six, because a grazing contact goes one way or the other: in
+//    Example 6 the lowest height of the centre has three values, 1.5e-8 and 1.1e-7 cm apart, and of
+//    11 runs, nine of them disturbed, 4 (the oracle's), 5 and 2 came to each; two copies may both
+//    be on the oracle's side.
 //  - The same for what a person would measure on the whole run: heights, energies, contact.
 #pragma once
 
