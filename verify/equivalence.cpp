@@ -37,6 +37,11 @@ void raise_to(double& largest, double value) {
   if (!(value <= largest)) largest = std::isnan(value) ? infinity : value;
 }
 
+// False for a NaN, and where the disturbed balls themselves have blown up and would allow anything.
+bool holds(double measured, double allowed) {
+  return std::isfinite(allowed) && measured <= allowed;
+}
+
 double position_difference(const State& a, const State& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -283,12 +288,12 @@ class Comparison {
     const double rounding =
         kick_rounding(problem_) + 8.0 * std::numeric_limits<double>::epsilon() * largest_speed();
     add_row(k, "  velocity there, cm/s", print(d->velocity), print(rounding),
-            d->velocity <= rounding, rows);
+            holds(d->velocity, rounding), rows);
     // A coordinate may come to lie on the other side of a rounding, and the kick's shows in it.
     const double last_place = largest_coordinate() * std::numeric_limits<double>::epsilon();
     const double allowed = last_place + problem_.step * rounding;
-    add_row(k, "  position there, cm", print(d->position), print(allowed), d->position <= allowed,
-            rows);
+    add_row(k, "  position there, cm", print(d->position), print(allowed),
+            holds(d->position, allowed), rows);
   }
 
   static double largest_of(const std::vector<double>& a, const std::vector<double>& b) {
@@ -312,7 +317,7 @@ class Comparison {
     }
     if (kernels_[k].same_bits) return;
     add_row(k, "position after " + print_steps(at_) + " steps, cm", print(measured), print(allowed),
-            measured <= allowed, rows);
+            holds(measured, allowed), rows);
   }
 
   void add_observable_rows(std::size_t k, std::vector<EquivalenceRow>& rows) const {
@@ -322,7 +327,8 @@ class Comparison {
       for (const Runner& copy : disturbed_) {
         allowed = std::max(allowed, disturbances_allowed * copy.observables[i]);
       }
-      add_row(k, Observables::names[i], print(measured), print(allowed), measured <= allowed, rows);
+      add_row(k, Observables::names[i], print(measured), print(allowed), holds(measured, allowed),
+              rows);
     }
   }
 
