@@ -100,8 +100,8 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
   plan.reasons.push_back("the neighbour list is " + std::to_string(shape->rings) +
                          " rings with constant offsets: each bond once, no index, " +
                          std::to_string(plan.lanes) + " sectors side by side");
-  plan.left_out.push_back("neighbour index and gathers");
-  plan.left_out.push_back("the second computation of each bond");
+  plan.left_out.emplace_back("neighbour index and gathers");
+  plan.left_out.emplace_back("the second computation of each bond");
   return {};
 }
 
@@ -116,7 +116,7 @@ std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
 
 KernelEntry ring_entry() {
   return {.name = "ring",
-          .description = "rings with constant offsets: each bond once, everything in registers",
+          .description = "rings with constant offsets: each bond once, no index",
           .automatic = true,
           .prepare = prepare_ring,
           .make = make};

@@ -1,5 +1,6 @@
 // The wall rule on vectors (paper, section 3): a particle with not (n.x > offset) is mirrored, its
-// tangential velocity multiplied by alpha, its normal velocity by beta.
+// tangential velocity multiplied by alpha, its normal velocity by beta. Not-a-number is not
+// mirrored.
 //
 // A step tests; only a vector with a particle behind a wall is mirrored, out of line. So alpha and
 // beta cost nothing while nothing touches, and no instantiation depends on them.
@@ -40,7 +41,8 @@ HWY_NOINLINE void reflect(D d, const std::vector<Wall>& walls, double* x, double
     for (const Wall& wall : walls) {
       const V nx = hn::Set(d, wall.normal.x), ny = hn::Set(d, wall.normal.y);
       const V distance = distance_from(d, wall, px, py);
-      const auto clear = hn::Gt(distance, hn::Zero(d));
+      // Not-a-number stays where it is, whatever stands beside it in the vector.
+      const auto clear = hn::Not(hn::Le(distance, hn::Zero(d)));
       const V twice = hn::Add(distance, distance);
       const V normal_speed = hn::MulAdd(nx, ux, hn::Mul(ny, uy));
       const V tx = hn::NegMulAdd(normal_speed, nx, ux), ty = hn::NegMulAdd(normal_speed, ny, uy);
@@ -71,7 +73,16 @@ struct Floor {
   explicit Floor(const std::vector<Wall>& all) : walls(all) {}
   template <class D, class V>
   HWY_INLINE hn::Mask<D> clear(D d, V, V y) const {
-    return hn::Gt(y, hn::Set(d, walls[0].offset));
+    return hn::Gt(y, threshold(d));
+  }
+  /// No nearer than threshold() is a particle that must be mirrored.
+  template <class D, class V>
+  HWY_INLINE V distance(D, V, V y) const {
+    return y;
+  }
+  template <class D>
+  HWY_INLINE hn::Vec<D> threshold(D d) const {
+    return hn::Set(d, walls[0].offset);
   }
   const std::vector<Wall>& walls;
 };
@@ -82,11 +93,19 @@ struct AnyWalls {
   explicit AnyWalls(const std::vector<Wall>& all) : walls(all) {}
   template <class D, class V>
   HWY_INLINE hn::Mask<D> clear(D d, V x, V y) const {
-    auto mask = hn::Gt(distance_from(d, walls[0], x, y), hn::Zero(d));
+    return hn::Gt(distance(d, x, y), threshold(d));
+  }
+  template <class D, class V>
+  HWY_INLINE V distance(D d, V x, V y) const {
+    V nearest = distance_from(d, walls[0], x, y);
     for (size_t w = 1; w < walls.size(); ++w) {
-      mask = hn::And(mask, hn::Gt(distance_from(d, walls[w], x, y), hn::Zero(d)));
+      nearest = hn::Min(distance_from(d, walls[w], x, y), nearest);
     }
-    return mask;
+    return nearest;
+  }
+  template <class D>
+  HWY_INLINE hn::Vec<D> threshold(D d) const {
+    return hn::Zero(d);
   }
   const std::vector<Wall>& walls;
 };

@@ -1,6 +1,6 @@
 // The program itself, run as a user runs it. BOUNCE_PROGRAM is its path.
 #include <fcntl.h>
-#include <signal.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill() is POSIX
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -82,7 +82,7 @@ TEST_P(MethodTest, OrderIsTheSlopeOfTheError) {
   const auto at = [&](std::int64_t steps) {
     return run(GetParam(), end / static_cast<double>(steps), steps, start);
   };
-  const State reference = at(40 * 2000);
+  const State reference = at(80'000);
   const double coarse = distance(at(1000), reference);
   const double fine = distance(at(2000), reference);
   const double slope = std::log2(coarse / fine);

@@ -79,16 +79,14 @@ TEST(Bonds, SymmetricForAnyRings) {
 // Bonds of the list are the shortest distances there are: nothing else lies as near.
 TEST(Bonds, JoinNearestParticles) {
   const Problem problem = make_problem(paper_scene(2));
-  for (std::size_t c = 0; c < problem.classes.size(); ++c) {
-    EXPECT_GT(problem.classes[c].rest, 0.26);
-  }
+  for (const BondClass& bond_class : problem.classes) EXPECT_GT(bond_class.rest, 0.26);
   for (int i = 1; i <= 360; ++i) {
     const auto a = static_cast<std::size_t>(i - 1);
     for (const int j : listing_row(i)) {
       const auto b = static_cast<std::size_t>(j - 1);
       const double d = std::hypot(problem.initial.x[a] - problem.initial.x[b],
                                   problem.initial.y[a] - problem.initial.y[b]);
-      const auto c = static_cast<std::size_t>(ring_of(i) + ring_of(j));
+      const auto c = static_cast<std::size_t>(ring_of(i)) + static_cast<std::size_t>(ring_of(j));
       EXPECT_NEAR(d, problem.classes[c].rest, 2e-4) << i << "-" << j;  // four decimals at both ends
     }
   }
@@ -100,7 +98,7 @@ TEST(Bonds, CheckCatchesEachCorruption) {
   const std::vector<std::function<void(BondList&)>> corruptions{
       [](BondList& b) { b.neighbour[17] = 360; },                // out of range
       [](BondList& b) { b.neighbour[17] = -1; },                 //
-      [](BondList& b) { b.neighbour[4 * 5] = 5; },               // itself
+      [](BondList& b) { b.neighbour[20] = 5; },                  // itself
       [](BondList& b) { b.neighbour[1] = b.neighbour[0]; },      // twice
       [](BondList& b) { b.neighbour[2] = 200; },                 // no way back
       [](BondList& b) { b.bond_class[9] = 4; },                  // another class there
@@ -268,8 +266,8 @@ TEST(Problem, StartIsMirrorSymmetric) {
   for (int ring = 0; ring < 3; ++ring) {
     for (int column = 0; column < 120; ++column) {
       const int mirrored = ring == 1 ? (59 - column + 120) % 120 : (60 - column + 120) % 120;
-      const auto i = static_cast<std::size_t>(120 * ring + column);
-      const auto j = static_cast<std::size_t>(120 * ring + mirrored);
+      const auto i = std::size_t{120} * ring + column;
+      const auto j = std::size_t{120} * ring + mirrored;
       EXPECT_TRUE(same_bits(s.x[i], 0.0 - s.x[j])) << "particles " << i + 1 << ", " << j + 1;
       EXPECT_TRUE(same_bits(s.y[i], s.y[j])) << "particles " << i + 1 << ", " << j + 1;
     }

@@ -123,7 +123,7 @@ TEST(Measure, KeepsNaN) {
 
 class WatchTest : public testing::Test {
  protected:
-  std::optional<Trouble> check(const State& state) const {
+  [[nodiscard]] std::optional<Trouble> check(const State& state) const {
     return watch_.check(state, measure(problem_, state));
   }
   Problem problem_ = make_problem(paper_scene(2));

@@ -182,7 +182,7 @@ State scattered() {
   State state(360);
   for (std::size_t i = 0; i < 360; ++i) {
     state.x[i] = 1e200 * static_cast<double>(i % 19);
-    state.y[i] = 1e200 * static_cast<double>(i / 19 + 1);
+    state.y[i] = 1e200 * (1.0 + std::floor(static_cast<double>(i) / 19.0));
   }
   return state;
 }

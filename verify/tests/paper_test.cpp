@@ -189,7 +189,7 @@ double touch_down(const ExampleRun& run) {
 // 2e-12. The parabola of exact time, n^2 in place of n (n+1), is 4e-7 cm away.
 void expect_free_fall(const ExampleRun& run) {
   constexpr double rounding = 1e-11;
-  const double mass = static_cast<double>(run.problem.initial.size());
+  const auto mass = static_cast<double>(run.problem.initial.size());
   const double until = 0.99 * touch_down(run);
   const double dt = run.problem.step;
   int looks = 0;
