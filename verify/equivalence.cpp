@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "kernels/stepping/mirror_symmetry.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/monitor.hpp"
 #include "verify/observables.hpp"
@@ -368,14 +370,22 @@ double ulps_between(double a, double b) {
 
 std::vector<KernelUnderTest> kernels_under_test(const std::string& vector) {
   std::vector<KernelUnderTest> all;
-  for (const char* name : {"strict", "csr", "ring"}) {
+  for (const char* name : {"strict", "csr", "ring", "mirror"}) {
     PlanRequest request;
     request.kernel = name;
     request.vector = vector;
     request.threads = 1;
-    all.push_back({name, request.kernel == "strict", [request](const Problem& problem) {
-                     return make_stepper(problem, make_plan(problem, request));
-                   }});
+    KernelUnderTest kernel{name, request.kernel == "strict", {}, {}};
+    kernel.make = [request](const Problem& problem) {
+      return make_stepper(problem, make_plan(problem, request));
+    };
+    if (request.kernel == "mirror") {
+      kernel.runs = [](const Problem& problem) {
+        const auto rings = find_rings(problem.bonds);
+        return rings && find_mirror_axis(problem, *rings).refusal.empty();
+      };
+    }
+    all.push_back(std::move(kernel));
   }
   return all;
 }
@@ -384,7 +394,11 @@ std::vector<EquivalenceRow> check_equivalence(const std::string& name, const Sce
                                               std::int64_t steps, bool observables,
                                               std::span<const KernelUnderTest> kernels,
                                               const EquivalenceProgress& progress) {
-  return Comparison(name, scene, kernels).run(steps, observables, progress);
+  const Problem problem = make_problem(scene);
+  std::vector<KernelUnderTest> running;
+  std::copy_if(kernels.begin(), kernels.end(), std::back_inserter(running),
+               [&](const KernelUnderTest& kernel) { return !kernel.runs || kernel.runs(problem); });
+  return Comparison(name, scene, running).run(steps, observables, progress);
 }
 
 Scene at_the_wall(const Scene& scene) {

@@ -34,9 +34,12 @@ struct KernelUnderTest {
   std::string name;
   bool same_bits = false;  ///< it claims the oracle's bits
   std::function<std::unique_ptr<Stepper>(const Problem&)> make;
+  /// Whether it is for this problem at all; where it is not it has no rows. Empty: for all.
+  std::function<bool(const Problem&)> runs{};
 };
 
-/// strict, csr and ring as plans would make them, with the given vector target ("auto", ...).
+/// strict, csr, ring and, where the scene is symmetric, mirror, as plans would make them, with the
+/// given vector target ("auto", ...).
 std::vector<KernelUnderTest> kernels_under_test(const std::string& vector = "auto");
 
 /// One line of the table. Numbers are printed as they were compared.

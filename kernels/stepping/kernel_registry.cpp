@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "kernels/stepping/csr.hpp"
+#include "kernels/stepping/mirror.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "kernels/stepping/ring.hpp"
 #include "kernels/stepping/strict.hpp"
@@ -8,7 +9,8 @@
 namespace bounce {
 
 std::span<const KernelEntry> kernels() {
-  static const std::vector<KernelEntry> entries{ring_entry(), csr_entry(), strict_entry()};
+  static const std::vector<KernelEntry> entries{mirror_entry(), ring_entry(), csr_entry(),
+                                                strict_entry()};
   return entries;
 }
 

@@ -31,6 +31,8 @@ struct Plan {
   VectorTarget vector = VectorTarget::none;
   int lanes = 1;  ///< doubles computed side by side
   int threads = 1;
+  /// Multiplications and multiply-adds of whole vectors a step takes at least; 0: not counted.
+  double multiplications = 0.0;
   std::string law;                    ///< which form of the law was compiled in
   std::string walls;                  ///< which form of the walls was compiled in
   std::vector<std::string> left_out;  ///< what this scene does not need and this code does not have

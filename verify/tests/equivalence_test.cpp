@@ -128,6 +128,9 @@ INSTANTIATE_TEST_SUITE_P(All, BrokenKernel,
                              {"strict_sign", "strict", flip_sign},
                              {"csr_sign", "csr", flip_sign},
                              {"ring_sign", "ring", flip_sign},
+                             {"mirror_class", "mirror", swap_bond_class},
+                             {"mirror_sign", "mirror", flip_sign},
+                             {"mirror_wall", "mirror", lose_the_wall},
                              {"strict_sum", "strict", turn_sums_round},
                              {"strict_wall", "strict", lose_the_wall},
                              {"csr_wall", "csr", lose_the_wall},
@@ -141,13 +144,26 @@ INSTANTIATE_TEST_SUITE_P(All, BrokenKernel,
 TEST(Equivalence, HoldsForTheKernelsOfThisBuild) {
   for (const double elasticity : {1000.0, 16000.0}) {
     for (const Scene& scene : {example(elasticity), at_the_wall(example(elasticity))}) {
-      for (const char* name : {"strict", "csr", "ring"}) {
+      for (const char* name : {"strict", "csr", "ring", "mirror"}) {
         const auto rows = check(scene, kernel_with(name, leave));
         EXPECT_TRUE(all_pass(rows)) << name << " E = " << elasticity << "\n"
                                     << print_failures(rows);
       }
     }
   }
+}
+
+TEST(Equivalence, TakesMirrorWhereTheSceneIsSymmetric) {
+  const auto kernels = kernels_under_test();
+  const auto has_mirror = [&](const Scene& scene) {
+    const auto rows = check_equivalence("scene", scene, 10, false, kernels);
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const EquivalenceRow& row) { return row.kernel == "mirror"; });
+  };
+  Scene scene = example(16000.0);
+  EXPECT_TRUE(has_mirror(scene));
+  scene.ball.velocity.x = 0.0001;
+  EXPECT_FALSE(has_mirror(scene));
 }
 
 TEST(Equivalence, RingRefusesAListWithADroppedBond) {

@@ -5,6 +5,7 @@
 
 #include "kernels/model/problem.hpp"
 #include "kernels/stepping/csr_physics-inl.hpp"
+#include "kernels/stepping/mirror_stepper-inl.hpp"
 #include "kernels/stepping/ring_stepper-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,6 +32,16 @@ std::uint64_t ring_hash(const Problem& problem, int threads) {
 }
 
 template <size_t lanes>
+std::uint64_t mirror_hash(const Problem& problem) {
+  using D = hn::FixedTag<double, lanes>;
+  const RingShape shape = *find_rings(problem.bonds);
+  MirrorStepper<D, FixedLaw<4, 2>, Floor, 3> stepper(problem, shape,
+                                                     find_mirror_axis(problem, shape).sum);
+  stepper.advance(steps);
+  return state_hash(stepper.state());
+}
+
+template <size_t lanes>
 std::uint64_t csr_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
   SlicedStepper<FastPhysics<D, FixedLaw<4, 2>, AnyWalls>> stepper(problem, threads);
@@ -46,6 +57,22 @@ TEST(Lanes, DoNotChangeABitOfRing) {
     EXPECT_EQ(ring_hash<2>(problem, 1), four);
     EXPECT_EQ(ring_hash<1>(problem, 3), four);
     EXPECT_EQ(ring_hash<2>(problem, 2), four);
+  }
+}
+
+// 60 columns of half a ball are dealt evenly, 14, 34 and 166 are not.
+TEST(Lanes, DoNotChangeABitOfMirror) {
+  for (const int columns : {120, 28, 68, 332}) {
+    Scene scene;
+    scene.ball.per_ring = columns;
+    if (columns != 120) scene.law.rest = Rest::geometry;
+    scene.ball.centre.y = 7.002;
+    scene.ball.velocity = {0.0, -2.0};
+    scene.walls = {Wall{{0.0, 1.0}, 0.0, 0.4, -0.6}};
+    const Problem problem = make_problem(scene);
+    const std::uint64_t four = mirror_hash<4>(problem);
+    EXPECT_EQ(mirror_hash<1>(problem), four) << columns;
+    EXPECT_EQ(mirror_hash<2>(problem), four) << columns;
   }
 }
 

@@ -1,0 +1,81 @@
+// Instantiates the mirror kernel for each vector target and picks the one a plan names.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/stepping/mirror.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "kernels/stepping/mirror.hpp"
+#include "kernels/stepping/mirror_stepper-inl.hpp"
+#include "kernels/stepping/ring_forms-inl.hpp"
+#include "kernels/stepping/ring_forms.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bounce {
+namespace HWY_NAMESPACE {
+
+struct MakeMirror {
+  template <class Law, class Walls, int R>
+  static std::unique_ptr<Stepper> of(const Problem& problem, const RingShape& shape,
+                                     std::int64_t sum) {
+    using D = hn::ScalableTag<double>;
+    return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum);
+  }
+};
+
+std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
+                                     std::int64_t sum) {
+  return make_ring_form<MakeMirror>(problem, shape, sum);
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bounce
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bounce {
+namespace {
+
+std::string prepare_mirror(const Problem& problem, const PlanRequest& request, Plan& plan) {
+  const RingForm form = find_ring_form(problem);
+  if (!form.refusal.empty()) return form.refusal;
+  const MirrorAxis axis = find_mirror_axis(problem, form.shape);
+  if (!axis.refusal.empty()) return "it is not left-right symmetric: " + axis.refusal;
+  if (request.threads > 1) return "the half ball runs on one thread";
+  plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
+  const std::int64_t half = form.shape.per_ring / 2;
+  if (half < std::int64_t{2} * plan.lanes) {
+    return std::to_string(half) + " columns of half a ball are less than two a lane";
+  }
+  plan.threads = 1;
+  plan.multiplications =
+      ring_multiplications(problem, form.shape.rings, (half + plan.lanes - 1) / plan.lanes);
+  plan.reasons.emplace_back(
+      "the ball, its walls and gravity are left-right symmetric: half of it "
+      "is stepped, each bond once, no index, " +
+      std::to_string(plan.lanes) + " sectors side by side");
+  plan.left_out.emplace_back("neighbour index and gathers");
+  plan.left_out.emplace_back("the second computation of each bond");
+  plan.left_out.emplace_back("the other half of the ball");
+  return {};
+}
+
+std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
+  const RingForm form = find_ring_form(problem);
+  const std::int64_t sum = find_mirror_axis(problem, form.shape).sum;
+  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum)
+                         : N_AVX2::make_mirror(problem, form.shape, sum);
+}
+
+}  // namespace
+
+KernelEntry mirror_entry() {
+  return {.name = "mirror",
+          .description = "half of a left-right symmetric ball of rings",
+          .automatic = true,
+          .prepare = prepare_mirror,
+          .make = make};
+}
+
+}  // namespace bounce
+#endif

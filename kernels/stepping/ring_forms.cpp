@@ -1,0 +1,53 @@
+#include "kernels/stepping/ring_forms.hpp"
+
+#include <array>
+
+#include "kernels/stepping/method.hpp"
+#include "kernels/stepping/scene_forms.hpp"
+
+namespace bounce {
+namespace {
+
+std::string refuses_law(LawForm form, int rings) {
+  if (form == LawForm::three_five) return {};
+  const bool known = form == LawForm::seven_thirteen || form == LawForm::two_four;
+  if (known && rings == 3) return {};
+  return known ? "exponents other than (3, 5) are compiled for three rings only"
+               : "its exponents (p, q) are not one of (3, 5), (7, 13), (2, 4)";
+}
+
+// Of the law, a bond (vector_law-inl.hpp); roots are not counted.
+int law_multiplications(LawForm form) {
+  switch (form) {
+    case LawForm::three_five:
+      return 3;  // u^2, H u - G, their product
+    case LawForm::seven_thirteen:
+      return 6;  // u^2 and its square, u^3 in two, H u^3 - G, their product
+    default:
+      return 3;  // u u^(1/2), H u - G, their product
+  }
+}
+
+}  // namespace
+
+RingForm find_ring_form(const Problem& problem) {
+  const auto shape = find_rings(problem.bonds);
+  if (!shape) {
+    return {{},
+            "the neighbour list is not 1 to " + std::to_string(most_rings) +
+                " concentric rings with constant offsets"};
+  }
+  return {*shape, refuses_law(law_form(problem.law), shape->rings)};
+}
+
+double ring_multiplications(const Problem& problem, int rings, std::int64_t columns) {
+  // To share a division among 1, 2, 3, 4 bonds (reciprocals_of).
+  constexpr std::array<int, 5> to_share{0, 0, 3, 6, 9};
+  const int bonds = 3 * rings - 2;
+  const int a_bond = 2 + law_multiplications(law_form(problem.law)) + 4;
+  const int a_column = bonds * a_bond + bonds / 4 * to_share[4] +
+                       to_share[static_cast<std::size_t>(bonds % 4)] + 2 * rings;
+  return static_cast<double>(columns) * a_column * problem.method->evaluations;
+}
+
+}  // namespace bounce
