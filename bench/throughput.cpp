@@ -4,6 +4,9 @@
 // row, a batch of the oracle with -Ofast. Ratios are made turn by turn, so a clock that swings does
 // not reach them; a row is the median of its turns. Before it is timed a row runs 1000 steps beside
 // the oracle; if it is off by more than rounding, it is an error and not a time.
+//
+// The port limit is the time that the kernel's multiplications and multiply-adds alone would take
+// at the rate measured in the same turn; a row of one thread says which part of it is reached.
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
@@ -16,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/multiply_add_rate.hpp"
 #include "driver/origin.hpp"
 #include "driver/scene_file.hpp"
 #include "kernels/stepping/plan.hpp"
@@ -69,6 +73,8 @@ class Subject {
   virtual void advance(std::int64_t steps) = 0;
   [[nodiscard]] virtual std::vector<State> states() const = 0;
   [[nodiscard]] virtual std::int64_t balls() const { return 1; }
+  /// How its steps are taken; no plan, or more threads than one: no port limit.
+  [[nodiscard]] virtual const Plan* plan() const { return nullptr; }
 };
 
 class OracleSubject final : public Subject {
@@ -88,12 +94,15 @@ class KernelSubject final : public Subject {
     request.kernel = kernel;
     request.vector = vector;
     request.threads = threads;
-    stepper_ = make_stepper(problem(), make_plan(problem(), request));
+    plan_ = make_plan(problem(), request);
+    stepper_ = make_stepper(problem(), plan_);
   }
   void advance(std::int64_t steps) override { stepper_->advance(steps); }
   [[nodiscard]] std::vector<State> states() const override { return {stepper_->state()}; }
+  [[nodiscard]] const Plan* plan() const override { return &plan_; }
 
  private:
+  Plan plan_;
   std::unique_ptr<Stepper> stepper_;
 };
 
@@ -155,6 +164,13 @@ std::int64_t batch_for(Subject& subject) {
   return steps;
 }
 
+// Seconds a step would take if the ports did nothing but multiply; 0 if nobody counted.
+double port_limit(const Subject& subject) {
+  const Plan* plan = subject.plan();
+  if (plan == nullptr || plan->threads > 1 || plan->multiplications == 0.0) return 0.0;
+  return plan->multiplications / multiply_add_rate(plan->vector);
+}
+
 void run_row(benchmark::State& state, const MakeSubject& make) {
   const double difference = difference_from_oracle(make);
   if (!(difference <= allowed_difference)) {
@@ -164,19 +180,23 @@ void run_row(benchmark::State& state, const MakeSubject& make) {
   OracleSubject oracle(&native::run_listing), fast_math(&fast_math::run_listing);
   const auto subject = make();
   const std::int64_t batch = batch_for(*subject);
-  std::vector<double> times, ratios, ratios_fast_math;
+  std::vector<double> times, ratios, ratios_fast_math, parts;
   for (auto turn : state) {
     (void)turn;
     const double native_time = time_step(oracle, oracle_batch);
+    const double limit = port_limit(*subject);
     const double time = time_step(*subject, batch);
     const double fast_math_time = time_step(fast_math, oracle_batch);
     times.push_back(time);
+    parts.push_back(limit / time);
     ratios.push_back(native_time / time);
     ratios_fast_math.push_back(fast_math_time / time);
     state.SetIterationTime(time);
   }
   const double time = median(times);
   state.counters["ns_per_step"] = 1e9 * time;
+  state.counters["particles_per_s"] = static_cast<double>(problem().initial.size()) / time;
+  if (median(parts) > 0.0) state.counters["part_of_port_limit"] = median(parts);
   state.counters["bonds_per_s"] = static_cast<double>(problem().bonds.bonds()) / time;
   state.counters["x_oracle_O3"] = median(ratios);
   state.counters["x_oracle_Ofast"] = median(ratios_fast_math);
@@ -206,6 +226,8 @@ void add_rows() {
                 [=] { return std::make_unique<KernelSubject>(kernel, vector, threads); });
       }
     }
+    add_row("mirror " + vector + "/threads:1",
+            [=] { return std::make_unique<KernelSubject>("mirror", vector, 1); });
     for (const int threads : {1, 2}) {
       add_row("64 balls ring " + vector + "/threads:" + std::to_string(threads),
               [=] { return std::make_unique<ManySubject>("ring", vector, 64, threads); });

@@ -16,14 +16,17 @@ def rows(runs):
     for run in runs:
         name, _, rest = run["name"].partition("/threads:")
         threads = rest.split("/")[0]
+        limit = run.get("part_of_port_limit")
         if run.get("error_occurred"):
-            yield [name, threads, "ERROR: " + run["error_message"], "", "", "", ""]
+            yield [name, threads, "ERROR: " + run["error_message"], "", "", "", "", "", ""]
             continue
         yield [
             name,
             threads,
             cell(run.get("ns_per_step"), ".0f"),
+            cell(run.get("particles_per_s", math.nan) / 1e6, ".0f"),
             cell(run.get("bonds_per_s", math.nan) / 1e6, ".0f"),
+            cell(limit, ".0%"),
             cell(run.get("x_oracle_O3"), ".2f"),
             cell(run.get("x_oracle_Ofast"), ".2f"),
             cell(run.get("difference_cm"), ".1e"),
@@ -39,9 +42,12 @@ def main():
     print("# Throughput, Example 2, double precision\n")
     print("Per step of one ball; medians of 31 interleaved turns. × is the ratio to the scalar oracle")
     print("compiled with the flags named, made turn by turn; the absolute times swing with the clock.")
+    print("Port limit: the part reached of the multiply-add rate measured in the same turn, for kernels whose")
+    print("operations are counted; particle-steps and bonds are the whole ball's, also where half is stepped.")
     print("The last column is the largest difference from the oracle's positions after 1000 steps.\n")
-    print("| row | threads | ns/step | 10^6 bonds/s | × oracle -O3 | × oracle -Ofast | difference, cm |")
-    print("| --- | --- | --- | --- | --- | --- | --- |")
+    print("| row | threads | ns/step | 10^6 particle-steps/s | 10^6 bonds/s | port limit | × oracle -O3 | "
+          "× oracle -Ofast | difference, cm |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for row in rows(data["benchmarks"]):
         print("| " + " | ".join(row) + " |")
     print(f"\nMade by `scripts/bench.sh` at commit {context['commit']}, {context['date']}, on "
