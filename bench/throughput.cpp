@@ -115,6 +115,7 @@ class ManySubject final : public Subject {
   }
   void advance(std::int64_t steps) override {
 #pragma omp parallel for num_threads(threads_) schedule(static)
+    // NOLINTNEXTLINE(modernize-loop-convert): dealt to threads by index
     for (std::size_t i = 0; i < balls_.size(); ++i) balls_[i].advance(steps);
   }
   [[nodiscard]] std::vector<State> states() const override {

@@ -7,4 +7,8 @@ cd "$(dirname "$0")/.."
 files=("$@")
 ((${#files[@]})) || mapfile -t files < <(git ls-files '*.cpp')
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
-printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/ci --quiet
+# clang does not know these two of GCC's.
+mkdir -p build/ci/lint
+sed 's/ -fschedule-insns//; s/ -fsched-pressure//' build/ci/compile_commands.json \
+  > build/ci/lint/compile_commands.json
+printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/ci/lint --quiet

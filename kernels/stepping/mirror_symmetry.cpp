@@ -20,8 +20,8 @@ std::string not_symmetric(const State& state, const RingShape& shape, std::int64
       const std::int64_t first = ring * shape.per_ring;
       const auto i = static_cast<std::size_t>(first + k);
       const auto j = static_cast<std::size_t>(first + mirror_image(shape, sum, ring, k));
-      const std::string pair = "particles " + std::to_string(i + 1) + " and " +
-                               std::to_string(j + 1) + " are not mirror images about x = 0";
+      std::string pair = "particles " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
+                         " are not mirror images about x = 0";
       if (!is_image(state, i, j)) return pair;
       if (!moves_as_image(state, i, j)) return pair + " in their velocities";
     }

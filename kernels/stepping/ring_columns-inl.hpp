@@ -59,6 +59,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include "kernels/stepping/ring_shape.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
@@ -135,7 +136,7 @@ class RingColumns {
     drop     ///< another tile's column, only its right neighbour's left sums are wanted
   };
 
-  RingColumns(const RingShape& shape, PairLaw law) : shape_(shape), law_(law) {}
+  RingColumns(RingShape shape, PairLaw law) : shape_(std::move(shape)), law_(law) {}
 
   [[nodiscard]] Constants make_constants(const StageConstants& stage) const {
     Constants c;
