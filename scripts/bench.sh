@@ -28,7 +28,8 @@ mkdir -p "$out"
 # Threads stay on their cores and spin between regions.
 OMP_PROC_BIND=close OMP_PLACES=cores OMP_WAIT_POLICY=active \
   build/release/bounce_bench --benchmark_out="$out/.throughput.json" \
-  --benchmark_out_format=json "$@"
+  --benchmark_out_format=json --benchmark_repetitions=15 \
+  --benchmark_enable_random_interleaving=true "$@"
 /usr/bin/python3 scripts/bench_table.py "$out/.throughput.json" > "$out/.throughput.md"
 mv "$out/.throughput.json" "$out/throughput.json"
 mv "$out/.throughput.md" "$out/throughput.md"

@@ -2,6 +2,7 @@
 """Prints a Google Benchmark JSON of bounce_bench as a Markdown table, with its origin."""
 import json
 import math
+import statistics
 import sys
 
 
@@ -12,9 +13,25 @@ def cell(value, form):
     return format(value, form)
 
 
-def rows(runs):
+def medians(runs):
+    """A row's repetitions as one run: the median of each figure, or the repetition that failed."""
+    repetitions = {}
     for run in runs:
-        name, _, rest = run["name"].partition("/threads:")
+        if run["run_type"] == "iteration":
+            repetitions.setdefault(run["run_name"], []).append(run)
+    # In the order in which they were registered, not in which they ran.
+    for same in sorted(repetitions.values(), key=lambda same: same[0]["family_index"]):
+        failed = [run for run in same if run.get("error_occurred")]
+        if failed:
+            yield failed[0]
+            continue
+        keys = [key for key, value in same[0].items() if isinstance(value, (int, float))]
+        yield same[0] | {key: statistics.median(run[key] for run in same) for key in keys}
+
+
+def rows(runs):
+    for run in medians(runs):
+        name, _, rest = run["run_name"].partition("/threads:")
         threads = rest.split("/")[0]
         limit = run.get("part_of_port_limit")
         if run.get("error_occurred"):
@@ -39,9 +56,10 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         data = json.load(file)
     context = data["context"]
+    repetitions = max((run.get("repetitions", 1) for run in data["benchmarks"]), default=1)
     print("# Throughput, Example 2, double precision\n")
-    print("Per step of one ball; medians of 31 interleaved turns. × is the ratio to the scalar oracle")
-    print("compiled with the flags named, made turn by turn; the absolute times swing with the clock.")
+    print(f"Per step of one ball; medians of {repetitions} repetitions, all rows' in random order, of 7 turns each. × is the")
+    print("ratio to the scalar oracle compiled with the flags named, made turn by turn; times swing with the clock.")
     print("Port limit: the part reached of the multiply-add rate measured in the same turn, for kernels whose")
     print("operations are counted; particle-steps and bonds are the whole ball's, also where half is stepped.")
     print("The last column is the largest difference from the oracle's positions after 1000 steps.\n")
