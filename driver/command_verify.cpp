@@ -158,7 +158,7 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
       "Examples:\n"
       "  bounce verify --quick\n"
       "  bounce verify example-2 example-5\n"
-      "  bounce verify --full --out equivalence.txt    (about 45 minutes on two cores)\n");
+      "  bounce verify --full --out equivalence.txt    (about an hour on two cores)\n");
   command->callback([options, &context] {
     if (options->scenes.empty()) {
       for (int i = 1; i <= 7; ++i) options->scenes.push_back("example-" + std::to_string(i));

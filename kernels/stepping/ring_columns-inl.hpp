@@ -21,27 +21,28 @@
 //     cycles (load, difference, square, product, division, products; then the force and five sums
 //     one after the other), and its results fill half of the register file. Two short sweeps keep
 //     two or three columns in flight, one long one hardly more than one. One sweep of 208
-//     instructions took 98 cycles a column on Zen 3, two of 77 and 147 take 61.
+//     instructions took 98 cycles a column on Zen 3, two of 74 and 146 take 60.
 //  4. The differences are taken again rather than kept: two loads and a subtraction, on ports that
 //     are free, for a store and two loads. Keeping them took 70 cycles.
 //  5. The reciprocals of up to four squared distances share one division (multiply, divide once,
 //     multiply back): IEEE operations only, so every machine gives the same bits.
-//  6. Nothing is called within a sweep. How near the nearest particle came to a wall is one minimum
-//  a
-//     particle; where one is behind, the columns are mirrored after the sweep. A call in the loop,
-//     never taken, still made the compiler keep everything in memory around it.
+//  6. Nothing is called within a sweep. How near the nearest particle came to a wall is one
+//     minimum a particle; where one is behind, the columns are mirrored after the sweep. A call in
+//     the loop, never taken, still made the compiler keep everything in memory around it.
 //  7. One answer: a particle's left bonds are summed from the gravity kick on their own, the others
 //     from its velocity, and the two are added once. That association, and the grouping of
 //     the reciprocals (the bonds of one column), depend on the neighbourhood alone, never on where
 //     a lane, a tile or a thread begins.
 //
-// Operations per column and vector, R = 3 rings, 7 bonds, law (3, 5), the same for AVX2 and
-// AVX-512:
+// Operations per column and vector, R = 3 rings, 7 bonds, law (3, 5):
 //   a bond: 2 for R^2, 3 for F/R, 4 for the sums; 2 + 2 subtractions    63 mul/fma, 28 sub
 //   the reciprocals: 9 + 6 multiplications, 2 divisions                 15 mul,      2 div
 //   a particle: 1 addition and 1 fma each for x and y; 1 minimum         6 fma,      6 add, 3 min
 // 84 multiplications: on two ports 42 cycles, 30 columns of vectors with 4 lanes, 15 with 8. (Where
 // additions share these ports, as on Intel's, 60 cycles.)
+// Reached on Zen 3: 60 cycles, 70 %, in the minutes in which the machine was quiet; 78 to 85 in
+// others (one sweep: 107 to 117), probably beside a neighbour on the core's other thread, which
+// takes half of how far it looks ahead. 220 instructions, 79 of them loads.
 //
 // Not taken: an approximate reciprocal with Newton steps (as fast, other bits on other makers'
 // processors); particles of one ring side by side in a vector (unaligned loads, and sums that
