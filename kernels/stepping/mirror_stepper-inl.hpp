@@ -164,14 +164,6 @@ class MirrorStepper final : public StagedStepper {
   static HWY_INLINE hn::Mask<D> lane_is(size_t lane) {
     return hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<double>(lane)));
   }
-  // Row `ring` of x, or y, of column `at`.
-  static HWY_INLINE V x_of(const double* at, int ring) {
-    return hn::Load(d, at + static_cast<size_t>(ring) * L);
-  }
-  static HWY_INLINE V y_of(const double* at, int ring) {
-    return hn::Load(d, at + Columns::row + static_cast<size_t>(ring) * L);
-  }
-
   // `column`, but in `lane` the mirror image of rings without stagger at `plain`, of staggered ones
   // at `staggered`.
   static HWY_INLINE Column with_image(Column column, size_t lane, const double* plain,
@@ -179,8 +171,9 @@ class MirrorStepper final : public StagedStepper {
     const auto here = lane_is(lane);
     for (int r = 0; r < R; ++r) {
       const double* image = r % 2 == 0 ? plain : staggered;
-      column.x[r] = hn::IfThenElse(here, hn::Sub(hn::Zero(d), x_of(image, r)), column.x[r]);
-      column.y[r] = hn::IfThenElse(here, y_of(image, r), column.y[r]);
+      column.x[r] =
+          hn::IfThenElse(here, hn::Sub(hn::Zero(d), Columns::x_of(image, r)), column.x[r]);
+      column.y[r] = hn::IfThenElse(here, Columns::y_of(image, r), column.y[r]);
     }
     return column;
   }
@@ -226,8 +219,9 @@ class MirrorStepper final : public StagedStepper {
     double* last = column(last_);
     const auto here = lane_is(L - 1);
     for (int r = 1; r < R; r += 2) {
-      const V x = hn::IfThenElse(here, hn::Sub(hn::Zero(d), x_of(inner, r)), x_of(last, r));
-      const V y = hn::IfThenElse(here, y_of(inner, r), y_of(last, r));
+      const V x = hn::IfThenElse(here, hn::Sub(hn::Zero(d), Columns::x_of(inner, r)),
+                                 Columns::x_of(last, r));
+      const V y = hn::IfThenElse(here, Columns::y_of(inner, r), Columns::y_of(last, r));
       hn::Store(x, d, last + static_cast<size_t>(r) * L);
       hn::Store(y, d, last + Columns::row + static_cast<size_t>(r) * L);
     }

@@ -1,5 +1,5 @@
-// Finds out whether a problem is left-right symmetric, so that half the ball is enough (the paper
-// used it: section 4, "symmetry").
+// Finds out whether a problem is left-right symmetric, so that half the ball is enough: the paper
+// gives 4.5 h with symmetry where the whole ball of Example 1 took 6.9 h.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
 #include "kernels/stepping/ring_shape.hpp"
@@ -159,6 +158,14 @@ class RingColumns {
     return c;
   }
 
+  /// x and y of ring r of the column at `at`.
+  static HWY_INLINE V x_of(const double* at, int r) {
+    return hn::Load(d, at + static_cast<size_t>(r) * L);
+  }
+  static HWY_INLINE V y_of(const double* at, int r) {
+    return hn::Load(d, at + row + static_cast<size_t>(r) * L);
+  }
+
   static HWY_INLINE Column load(const double* at) {
     Column column;
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
@@ -256,13 +263,6 @@ class RingColumns {
     return inner % 2 == 1 ? BondPlace{inner, inner + 1, true} : BondPlace{inner + 1, inner, true};
   }
 
-  static HWY_INLINE V x_of(const double* at, int r) {
-    return hn::Load(d, at + static_cast<size_t>(r) * L);
-  }
-  static HWY_INLINE V y_of(const double* at, int r) {
-    return hn::Load(d, at + row + static_cast<size_t>(r) * L);
-  }
-
   // Bonds first, first + 1, ... of a column share a division, most_in_group of them.
   template <int first>
   static HWY_INLINE void group_reciprocals(const Column& here, const Column& next, double* u) {
@@ -300,9 +300,9 @@ class RingColumns {
     on.y[p.to] = hn::NegMulAdd(f, dy, b < R ? c.gy : on.y[p.to]);
   }
 
+  template <int r>
   HWY_INLINE void start_ring(const Constants& c, const double* at, const double* u, Column& rest,
-                             Column& on_next, auto ring) const {
-    constexpr int r = decltype(ring)::value;
+                             Column& on_next) const {
     rest.x[r] = x_of(at + positions, r);
     rest.y[r] = y_of(at + positions, r);
     bond<along(r)>(c, at, u, rest, on_next);
@@ -325,11 +325,9 @@ class RingColumns {
   template <int ring, Rest rest>
   HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, double* at, const double* u,
                             Column& sums, const Column& left, Column& on_next, V& nearest) const {
-    if constexpr (ring == 0) {
-      start_ring(c, at, u, sums, on_next, std::integral_constant<int, 0>{});
-    }
+    if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
     if constexpr (ring + 1 < R) {
-      start_ring(c, at, u, sums, on_next, std::integral_constant<int, ring + 1>{});
+      start_ring<ring + 1>(c, at, u, sums, on_next);
       bond<same(ring)>(c, at, u, sums, on_next);
       bond<diagonal(ring)>(c, at, u, sums, on_next);
     }

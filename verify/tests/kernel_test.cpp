@@ -10,6 +10,7 @@
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/mirror_symmetry.hpp"
 #include "kernels/stepping/plan.hpp"
+#include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/ring_shape.hpp"
 #include "kernels/stepping/slices.hpp"
 
@@ -271,6 +272,30 @@ TEST(Plan, TakesHalfTheBallWhereItIsSymmetricAndSaysWhyNot) {
   State start = make_problem(straight).initial;
   start.y[200] = std::nextafter(start.y[200], 0.0);
   EXPECT_EQ(make_plan(make_problem(straight, start)).kernel, "ring");
+}
+
+// Within a parallel region OpenMP gives a team of one: it must step all the tiles.
+TEST(Ring, StepsAllTilesWithFewerThreadsThanAskedFor) {
+  const Problem problem = make_problem(touching_scene());
+  auto one = stepper_of(problem, forced("ring", 1));
+  one->advance(1500);
+  auto three = stepper_of(problem, forced("ring", 3));
+#pragma omp parallel num_threads(2)
+#pragma omp single
+  three->advance(1500);
+  EXPECT_EQ(state_hash(three->state()), state_hash(one->state()));
+}
+
+TEST(Ring, CountsItsMultiplications) {
+  const auto a_column = [](const Scene& scene) {
+    const Problem problem = make_problem(scene);
+    return ring_multiplications(problem, find_rings(problem.bonds)->rings, 1);
+  };
+  EXPECT_EQ(a_column(touching_scene()), 84);  // ring_columns-inl.hpp counts them
+  EXPECT_EQ(a_column(law_scene(7, 13)), 84 + 7 * 3);
+  Scene leapfrog = touching_scene();
+  leapfrog.time.method = "leapfrog";
+  EXPECT_EQ(a_column(leapfrog), 84);  // one evaluation a step
 }
 
 TEST(Mirror, KeepsTheBallSymmetricToTheLastBit) {
