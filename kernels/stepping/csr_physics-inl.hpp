@@ -66,8 +66,7 @@ class FastPhysics {
     hn::Store(moved_y, d, new_y + at);
     if constexpr (Walls::any) {
       if (HWY_UNLIKELY(!hn::AllTrue(d, walls_.clear(d, moved_x, moved_y)))) {
-        reflect(d, walls_.walls, new_x + at, new_y + at, store.vx.data() + at, store.vy.data() + at,
-                1);
+        walls_.mirror(d, new_x + at, new_y + at, store.vx.data() + at, store.vy.data() + at);
       }
     }
   }

@@ -13,18 +13,15 @@ HWY_BEFORE_NAMESPACE();
 namespace bounce {
 namespace HWY_NAMESPACE {
 
-struct MakeMirror {
-  template <class Law, class Walls, int R>
-  static std::unique_ptr<Stepper> of(const Problem& problem, const RingShape& shape,
-                                     std::int64_t sum) {
-    using D = hn::ScalableTag<double>;
-    return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum);
-  }
-};
+using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
                                      std::int64_t sum) {
-  return make_ring_form<MakeMirror>(problem, shape, sum);
+  return with_ring_form(law_form(problem.law), shape.rings, [&]<class Law, int R>() {
+    return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
+      return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum);
+    });
+  });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -18,20 +18,6 @@ std::string join(const Names& names) {
   return text;
 }
 
-VectorTarget choose_vector(const std::string& wanted) {
-  const std::vector<VectorTarget> available = available_vectors();
-  if (available.empty()) {
-    throw PlanError("this processor has no AVX2 with fused multiply-add, which the kernels need");
-  }
-  if (wanted == "auto") return available.front();
-  std::vector<std::string_view> names{"auto"};
-  for (const VectorTarget target : available) {
-    if (name_of(target) == wanted) return target;
-    names.push_back(name_of(target));
-  }
-  throw PlanError("--vector " + wanted + ": not available here; allowed are " + join(names));
-}
-
 const KernelEntry& find_entry(const std::string& name, std::span<const KernelEntry> entries) {
   const auto found = std::find_if(entries.begin(), entries.end(),
                                   [&](const KernelEntry& entry) { return entry.name == name; });
@@ -54,6 +40,27 @@ std::string prepare(const KernelEntry& entry, const Problem& problem, const Plan
 }
 
 }  // namespace
+
+VectorTarget choose_vector(const std::string& wanted) {
+  const std::vector<VectorTarget> available = available_vectors();
+  if (available.empty()) {
+    throw PlanError("this processor has no AVX2 with fused multiply-add, which the kernels need");
+  }
+  if (wanted == "auto") return available.front();
+  std::vector<std::string_view> names{"auto"};
+  for (const VectorTarget target : available) {
+    if (name_of(target) == wanted) return target;
+    names.push_back(name_of(target));
+  }
+  throw PlanError("--vector " + wanted + ": not available here; allowed are " + join(names));
+}
+
+void check_threads(int threads) {
+  if (threads < 0 || threads > most_threads) {
+    throw PlanError("--threads " + std::to_string(threads) + ": allowed is 1 to " +
+                    std::to_string(most_threads) + ", or 0 to leave it to the plan");
+  }
+}
 
 std::string_view name_of(VectorTarget target) {
   switch (target) {
@@ -81,10 +88,7 @@ std::vector<VectorTarget> available_vectors() {
 
 Plan make_plan(const Problem& problem, const PlanRequest& request,
                std::span<const KernelEntry> entries) {
-  if (request.threads < 0 || request.threads > most_threads) {
-    throw PlanError("--threads " + std::to_string(request.threads) + ": allowed is 1 to " +
-                    std::to_string(most_threads) + ", or 0 to leave it to the plan");
-  }
+  check_threads(request.threads);
   const bool automatic = request.kernel == "auto";
   Plan fresh;
   fresh.vector = choose_vector(request.vector);

@@ -61,6 +61,13 @@ std::span<const KernelEntry> kernels();
 /// Vector targets that this processor and this build can run, best first.
 std::vector<VectorTarget> available_vectors();
 
+/// The target of that name, or the best one for "auto". Throws PlanError if this machine has not
+/// got it.
+VectorTarget choose_vector(const std::string& wanted);
+
+/// Throws PlanError unless 0 <= threads <= 256.
+void check_threads(int threads);
+
 /// Picks the first automatic entry that can run the problem, or the one forced. Throws PlanError.
 Plan make_plan(const Problem& problem, const PlanRequest& request = {},
                std::span<const KernelEntry> entries = kernels());

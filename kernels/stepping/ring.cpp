@@ -16,15 +16,12 @@ namespace HWY_NAMESPACE {
 // One number of lanes a target: the widest it has.
 using D = hn::ScalableTag<double>;
 
-struct MakeRing {
-  template <class Law, class Walls, int R>
-  static std::unique_ptr<Stepper> of(const Problem& problem, const RingShape& shape, int threads) {
-    return std::make_unique<RingStepper<D, Law, Walls, R>>(problem, shape, threads);
-  }
-};
-
 std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape, int threads) {
-  return make_ring_form<MakeRing>(problem, shape, threads);
+  return with_ring_form(law_form(problem.law), shape.rings, [&]<class Law, int R>() {
+    return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
+      return std::make_unique<RingStepper<D, Law, Walls, R>>(problem, shape, threads);
+    });
+  });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -54,12 +51,12 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
   }
   plan.threads = request.threads == 0 ? 1 : request.threads;
-  const std::int64_t most = shape.per_ring / plan.lanes;
-  if (plan.threads > most) {
-    return std::to_string(plan.threads) + " threads are more than its " + std::to_string(most) +
-           " columns of vectors";
+  const std::int64_t columns = shape.per_ring / plan.lanes;
+  if (plan.threads > 1 && plan.threads > columns / 2) {
+    return std::to_string(plan.threads) + " threads are too many for its " +
+           std::to_string(columns) + " columns of vectors: a thread needs two";
   }
-  plan.multiplications = ring_multiplications(problem, shape.rings, most);
+  plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   plan.reasons.push_back("the neighbour list is " + std::to_string(shape.rings) +
                          " rings with constant offsets: each bond once, no index, " +
                          std::to_string(plan.lanes) + " sectors side by side");

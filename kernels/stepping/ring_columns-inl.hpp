@@ -138,12 +138,18 @@ class RingColumns {
 
   RingColumns(RingShape shape, PairLaw law) : shape_(std::move(shape)), law_(law) {}
 
-  [[nodiscard]] Constants make_constants(const StageConstants& stage) const {
+  /// Each lane's constants; a lane without any (null) stands still.
+  [[nodiscard]] Constants make_constants(const StageConstants* const* lanes) const {
+    const auto each = [lanes](const auto& value_of) HWY_ATTR {
+      HWY_ALIGN double values[L];
+      for (size_t l = 0; l < L; ++l) values[l] = lanes[l] == nullptr ? 0.0 : value_of(*lanes[l]);
+      return hn::Load(d, values);
+    };
     Constants c;
     const auto set = [&](int bond, int bond_class) HWY_ATTR {
-      const BondClass& kick = stage.kick[static_cast<size_t>(bond_class)];
-      c.attraction[bond] = hn::Set(d, kick.attraction);
-      c.repulsion[bond] = hn::Set(d, kick.repulsion);
+      const auto at = static_cast<size_t>(bond_class);
+      c.attraction[bond] = each([at](const StageConstants& s) { return s.kick[at].attraction; });
+      c.repulsion[bond] = each([at](const StageConstants& s) { return s.kick[at].repulsion; });
     };
     for (int r = 0; r < R; ++r) {
       const auto ring = static_cast<size_t>(r);
@@ -152,10 +158,16 @@ class RingColumns {
       set(same(r), shape_.same[ring]);
       set(diagonal(r), shape_.diagonal[ring]);
     }
-    c.gx = hn::Set(d, stage.gravity.x);
-    c.gy = hn::Set(d, stage.gravity.y);
-    c.drift = hn::Set(d, stage.drift);
+    c.gx = each([](const StageConstants& s) { return s.gravity.x; });
+    c.gy = each([](const StageConstants& s) { return s.gravity.y; });
+    c.drift = each([](const StageConstants& s) { return s.drift; });
     return c;
+  }
+  /// The same in all lanes.
+  [[nodiscard]] Constants make_constants(const StageConstants& stage) const {
+    const StageConstants* lanes[L];
+    std::fill_n(lanes, L, &stage);
+    return make_constants(lanes);
   }
 
   /// x and y of ring r of the column at `at`.
@@ -356,7 +368,7 @@ class RingColumns {
       for (int r = 0; r < R; ++r) {
         if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
         double* x = at + static_cast<size_t>(r) * L;
-        reflect(d, walls.walls, x, x + row, x + 2 * row, x + 3 * row, 1);
+        walls.mirror(d, x, x + row, x + 2 * row, x + 3 * row);
       }
     }
   }

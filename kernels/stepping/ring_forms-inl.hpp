@@ -15,40 +15,37 @@ HWY_BEFORE_NAMESPACE();
 namespace bounce {
 namespace HWY_NAMESPACE {
 
-/// Make::of<Law, Walls, R>(arguments...) for the forms the problem needs; those that
-/// refuses_ring_form lets through: (3, 5) on any of the rings, the others on three.
-template <class Make, class Law, int R, class... Arguments>
-std::unique_ptr<Stepper> make_with_walls(const Problem& problem, const Arguments&... arguments) {
+/// visit.operator()<Walls>() for the form of the problem's walls.
+template <class Visit>
+auto with_walls(const Problem& problem, const Visit& visit)
+    -> decltype(visit.template operator()<NoWalls>()) {
   switch (wall_form(problem)) {
     case WallForm::none:
-      return Make::template of<Law, NoWalls, R>(problem, arguments...);
+      return visit.template operator()<NoWalls>();
     case WallForm::floor:
-      return Make::template of<Law, Floor, R>(problem, arguments...);
+      return visit.template operator()<Floor>();
     case WallForm::any:
-      return Make::template of<Law, AnyWalls, R>(problem, arguments...);
+      return visit.template operator()<AnyWalls>();
   }
   return nullptr;
 }
 
-template <class Make, class... Arguments>
-std::unique_ptr<Stepper> make_ring_form(const Problem& problem, const RingShape& shape,
-                                        const Arguments&... arguments) {
-  const LawForm law = law_form(problem.law);
-  if (law == LawForm::seven_thirteen) {
-    return make_with_walls<Make, FixedLaw<8, 6>, 3>(problem, shape, arguments...);
-  }
-  if (law == LawForm::two_four) {
-    return make_with_walls<Make, FixedLaw<3, 2>, 3>(problem, shape, arguments...);
-  }
-  switch (shape.rings) {
+/// visit.operator()<Law, R>() for a form of the law and a number of rings that find_ring_form lets
+/// through: (3, 5) on any of the rings, the others on three.
+template <class Visit>
+auto with_ring_form(LawForm law, int rings, const Visit& visit)
+    -> decltype(visit.template operator()<FixedLaw<4, 2>, 1>()) {
+  if (law == LawForm::seven_thirteen) return visit.template operator()<FixedLaw<8, 6>, 3>();
+  if (law == LawForm::two_four) return visit.template operator()<FixedLaw<3, 2>, 3>();
+  switch (rings) {
     case 1:
-      return make_with_walls<Make, FixedLaw<4, 2>, 1>(problem, shape, arguments...);
+      return visit.template operator()<FixedLaw<4, 2>, 1>();
     case 2:
-      return make_with_walls<Make, FixedLaw<4, 2>, 2>(problem, shape, arguments...);
+      return visit.template operator()<FixedLaw<4, 2>, 2>();
     case 3:
-      return make_with_walls<Make, FixedLaw<4, 2>, 3>(problem, shape, arguments...);
+      return visit.template operator()<FixedLaw<4, 2>, 3>();
     case 4:
-      return make_with_walls<Make, FixedLaw<4, 2>, 4>(problem, shape, arguments...);
+      return visit.template operator()<FixedLaw<4, 2>, 4>();
     default:
       return nullptr;
   }

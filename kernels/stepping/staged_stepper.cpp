@@ -18,29 +18,35 @@ StageConstants constants_of(const Problem& problem, Stage stage) {
 
 }  // namespace
 
-StagedStepper::StagedStepper(Problem problem) : problem_(std::move(problem)) {
-  const Method& method = *problem_.method;
-  for (const Stage& stage : method.stages) fresh_.push_back(constants_of(problem_, stage));
-  if (!method.first_same_as_last) return;
-  fresh_.pop_back();
-  merged_ = fresh_;
+StepStages step_stages(const Problem& problem) {
+  const Method& method = *problem.method;
+  StepStages stages;
+  for (const Stage& stage : method.stages) stages.fresh.push_back(constants_of(problem, stage));
+  if (!method.first_same_as_last) return stages;
+  stages.fresh.pop_back();
+  stages.merged = stages.fresh;
   const Stage first = method.stages.front();
-  merged_.front() = constants_of(problem_, {first.kick + method.stages.back().kick, first.drift});
+  const double kick = first.kick + method.stages.back().kick;
+  stages.merged.front() = constants_of(problem, {kick, first.drift});
+  return stages;
 }
+
+StagedStepper::StagedStepper(Problem problem)
+    : problem_(std::move(problem)), stages_(step_stages(problem_)) {}
 
 void StagedStepper::advance(std::int64_t steps) {
   if (steps <= 0) return;
   step_ += steps;
-  if (!problem_.method->first_same_as_last) {
-    run(fresh_, steps);
+  if (stages_.merged.empty()) {
+    run(stages_.fresh, steps);
     return;
   }
   if (!kick_pending_) {
-    run(fresh_, 1);
+    run(stages_.fresh, 1);
     kick_pending_ = true;
     --steps;
   }
-  if (steps > 0) run(merged_, steps);
+  if (steps > 0) run(stages_.merged, steps);
 }
 
 State StagedStepper::state() const {

@@ -18,6 +18,14 @@ struct StageConstants {
   double drift = 0.0;           ///< drift dt
 };
 
+/// The stages of a step.
+struct StepStages {
+  std::vector<StageConstants> fresh;  ///< of a step that no kick is pending for
+  std::vector<StageConstants>
+      merged;  ///< of one that takes over the pending kick; empty: none does
+};
+StepStages step_stages(const Problem& problem);
+
 class StagedStepper : public Stepper {
  public:
   explicit StagedStepper(Problem problem);
@@ -37,8 +45,7 @@ class StagedStepper : public Stepper {
 
  private:
   Problem problem_;
-  std::vector<StageConstants> fresh_;   // of a step that no kick is pending for
-  std::vector<StageConstants> merged_;  // of a step that takes over the pending kick
+  StepStages stages_;
   bool kick_pending_ = false;
   std::int64_t step_ = 0;
 };

@@ -1,0 +1,94 @@
+// A whole ring of columns, stepped by one thread a stage at a time.
+//
+// Why it is built so
+//  1. The ring is one run of columns with a ghost behind it, column 0 as the last column sees it:
+//     turned by a lane where a lane is a sector, as it is where each lane is a ball of its own.
+//  2. Column 0 waits for the end of a stage, when its left sums arrive from the last column.
+//  3. The first sweep begins with column 1: column 0, moved last in the stage before, is wanted
+//     late, so the stages overlap.
+//  4. Columns are swept in chunks whose reciprocals stay in L1 beside them.
+#if defined(BOUNCE_RING_LOOP_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOUNCE_RING_LOOP_INL_HPP
+#undef BOUNCE_RING_LOOP_INL_HPP
+#else
+#define BOUNCE_RING_LOOP_INL_HPP
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "kernels/stepping/particle_store.hpp"
+#include "kernels/stepping/ring_columns-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bounce {
+namespace HWY_NAMESPACE {
+
+/// Columns: a RingColumns. turned: behind the last column of a lane stands the next lane's first.
+/// chunk: columns swept at a time; with 4 lanes and three rings their reciprocals take 224 bytes.
+template <class Columns, bool turned, size_t chunk>
+class RingLoop {
+  using Column = typename Columns::Column;
+  using Constants = typename Columns::Constants;
+  using Rest = typename Columns::Rest;
+  using V = typename Columns::V;
+
+ public:
+  explicit RingLoop(size_t columns)
+      : size_(columns), data_((columns + 1) * Columns::block), u_(Columns::terms * (chunk + 1)) {}
+
+  [[nodiscard]] size_t size() const { return size_; }
+  [[nodiscard]] double* column(size_t k) { return data_.data() + k * Columns::block; }
+  [[nodiscard]] const double* column(size_t k) const { return data_.data() + k * Columns::block; }
+
+  template <class Walls>
+  HWY_INLINE void run(const Columns& physics, const std::vector<Constants>& constants,
+                      const Walls& walls, std::int64_t steps) {
+    for (std::int64_t s = 0; s < steps; ++s) {
+      for (const Constants& c : constants) pass(physics, c, walls);
+    }
+  }
+
+ private:
+  // One stage.
+  template <class Walls>
+  HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls) {
+    double* first = column(0);
+    double* u = u_.data();
+    double* u_first = u + chunk * Columns::terms;
+    V nearest = Columns::far_away();
+    Column left;
+    Columns::store(turn(Columns::load(first), 1), column(size_));
+    for (size_t k = 1; k < size_; k += chunk) {
+      const size_t count = std::min(chunk, size_ - k);
+      Columns::reciprocals(column(k), count, u);
+      if (k == 1) {
+        Columns::reciprocals(first, 1, u_first);
+        physics.template sums<Rest::keep>(c, walls, first, 1, u_first, left, nearest);
+      }
+      physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
+    }
+    physics.finish_kept(c, walls, first, turn(left, -1), nearest);
+    Columns::mirror_at_walls(walls, first, size_, nearest);
+  }
+
+  static HWY_INLINE Column turn(const Column& column, int shift) {
+    if constexpr (turned) {
+      return Columns::turn(column, shift);
+    } else {
+      return column;
+    }
+  }
+
+  size_t size_;
+  AlignedArray data_, u_;
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bounce
+HWY_AFTER_NAMESPACE();
+
+#endif

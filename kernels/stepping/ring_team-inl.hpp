@@ -1,0 +1,215 @@
+// A ring that is stepped by a few threads, each with a tile of its columns, a stage at a time.
+//
+// Why it is built so
+//  1. A ball of 360 particles takes half a microsecond a stage; a line of memory takes a tenth or
+//  two
+//     from one core to another. So what a tile wants from its neighbours must have been on its way
+//     for a whole sweep before it is wanted, and little of it.
+//  2. Both ghosts are wanted at the end of a sweep only. Column 0 is swept first, but moved last,
+//  when
+//     the sums of its left bonds come; these a tile takes itself from the column before it, so that
+//     all it is told are positions:
+//
+//         sweep of a stage:   0 (sums kept)   1   2  ...  n-2 | wait | n-1   0 (left bonds, moved)
+//         is told:                                              column n and column -1 of the stage
+//                                                               before: sent a sweep ago
+//
+//  3. Every thread waits for its two neighbours alone, through a counter on a line of its own.
+//  4. Where the cores are far apart, or a thread has to share one, a team is slower than one
+//  thread:
+//     with hand-shakes of 0.11, 0.2 and 0.39 us there and back it took 0.67, 0.8 and 1.0 of one
+//     thread's time, with one core for two threads fifty times as much. So the work is done in
+//     slices of a millisecond, by the team or by one thread (ring_loop-inl.hpp) as was faster of
+//     late; the bits are the same.
+//  5. Columns are swept in chunks whose reciprocals stay in L1 beside them.
+//
+// Work beside the whole ball's: one column's bonds a tile, and two short sweeps.
+//
+// Not taken: several columns of ghosts and several stages alone (ring_tiles-inl.hpp: right for
+// large tiles; on 15 columns the ghosts, and fetching four vectors a particle, cost as much as they
+// save: 1.0 to 1.3 of one thread, by the minute); waiting before the first column (0.7 to 1.2).
+#if defined(BOUNCE_RING_TEAM_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOUNCE_RING_TEAM_INL_HPP
+#undef BOUNCE_RING_TEAM_INL_HPP
+#else
+#define BOUNCE_RING_TEAM_INL_HPP
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+#include "kernels/stepping/faster_of_two.hpp"
+#include "kernels/stepping/particle_store.hpp"
+#include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_loop-inl.hpp"
+#include "kernels/stepping/spin.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bounce {
+namespace HWY_NAMESPACE {
+
+/// Columns: a RingColumns.
+template <class Columns>
+class RingTeam {
+  using Column = typename Columns::Column;
+  using Constants = typename Columns::Constants;
+  using Rest = typename Columns::Rest;
+  using V = typename Columns::V;
+  static constexpr size_t block = Columns::block;
+  static constexpr size_t chunk = 32;  // columns; their reciprocals take 7 kB with 4 lanes
+
+ public:
+  /// A tile a thread, of at least two columns.
+  RingTeam(size_t columns, size_t tiles) : loop_(columns) {
+    for (size_t t = 0; t < tiles; ++t) {
+      tiles_.emplace_back(columns * t / tiles, columns * (t + 1) / tiles);
+    }
+  }
+
+  [[nodiscard]] double* column(size_t k) { return loop_.column(k); }
+
+  template <class Walls>
+  void run(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
+           std::int64_t steps) {
+    using Clock = std::chrono::steady_clock;
+    while (steps > 0) {
+      const std::int64_t slice = std::min(steps, slice_);
+      const int way = choice_.next();
+      const auto start = Clock::now();
+      if (way == alone) {
+        loop_.run(physics, constants, walls, slice);
+      } else {
+        run_together(physics, constants, walls, slice);
+      }
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      steps -= slice;
+      if (4 * slice < slice_) continue;  // too short to tell
+      choice_.took(way, seconds / static_cast<double>(slice));
+      if (slice == slice_ && seconds < 0.5 * slice_seconds) slice_ *= 2;
+    }
+  }
+
+ private:
+  static constexpr int alone = 0;
+  static constexpr double slice_seconds = 1e-3;
+
+  // Columns begin .. end-1 with a ghost on either side, and the reciprocals of a chunk of them.
+  struct Tile {
+    size_t begin, end;
+    AlignedArray data, u;
+
+    Tile(size_t from, size_t to)
+        : begin(from), end(to), data((to - from + 2) * block), u(Columns::terms * (chunk + 2)) {}
+    [[nodiscard]] size_t size() const { return end - begin; }
+    [[nodiscard]] double* column(size_t k) { return data.data() + (k + 1) * block; }
+    [[nodiscard]] double* before() { return data.data(); }
+    [[nodiscard]] double* behind() { return column(size()); }
+  };
+
+  // Where a tile tells its neighbours the positions of its outer columns, for even and odd stages.
+  struct alignas(64) Mailbox {
+    std::atomic<std::int64_t> stage{-1};
+    alignas(64) double first[2][Columns::positions], last[2][Columns::positions];
+  };
+
+  template <class Walls>
+  HWY_NOINLINE void run_together(const Columns& physics, const std::vector<Constants>& constants,
+                                 const Walls& walls, std::int64_t steps) {
+    const size_t tiles = tiles_.size();
+    std::vector<Mailbox> boxes(tiles);
+    for (size_t t = 0; t < tiles; ++t) {
+      Tile& tile = tiles_[t];
+      std::copy_n(loop_.column(tile.begin), tile.size() * block, tile.column(0));
+      publish(boxes[t], tile, 0);
+    }
+#pragma omp parallel num_threads(static_cast <int>(tiles))
+    {
+      // OpenMP may give fewer threads than asked for: then a thread has several tiles.
+      const auto team = static_cast<size_t>(omp_get_num_threads());
+      const auto me = static_cast<size_t>(omp_get_thread_num());
+      std::int64_t stage = 0;
+      for (std::int64_t s = 0; s < steps; ++s) {
+        for (const Constants& c : constants) {
+          for (size_t t = me; t < tiles; t += team) {
+            pass(physics, c, walls, t, boxes, stage);
+            publish(boxes[t], tiles_[t], stage + 1);
+          }
+          ++stage;
+        }
+      }
+    }
+    for (Tile& tile : tiles_) {
+      std::copy_n(tile.column(0), tile.size() * block, loop_.column(tile.begin));
+    }
+  }
+
+  static HWY_INLINE void publish(Mailbox& box, Tile& tile, std::int64_t stage) {
+    const auto parity = static_cast<size_t>(stage & 1);
+    Columns::store(Columns::load(tile.column(0)), box.first[parity]);
+    Columns::store(Columns::load(tile.column(tile.size() - 1)), box.last[parity]);
+    box.stage.store(stage, std::memory_order_release);
+  }
+
+  // Fills tile t's ghosts; across the seam of the lanes they are turned by a lane.
+  HWY_INLINE void fill_ghosts(size_t t, const std::vector<Mailbox>& boxes, std::int64_t stage) {
+    const size_t tiles = tiles_.size();
+    const auto parity = static_cast<size_t>(stage & 1);
+    const Mailbox& before = boxes[(t + tiles - 1) % tiles];
+    const Mailbox& behind = boxes[(t + 1) % tiles];
+    wait_for(behind.stage, stage);
+    wait_for(before.stage, stage);
+    const Column next = Columns::load(behind.first[parity]);
+    const Column previous = Columns::load(before.last[parity]);
+    Columns::store(t + 1 == tiles ? Columns::turn(next, 1) : next, tiles_[t].behind());
+    Columns::store(t == 0 ? Columns::turn(previous, -1) : previous, tiles_[t].before());
+  }
+
+  // One stage of tile t.
+  template <class Walls>
+  HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls, size_t t,
+                       const std::vector<Mailbox>& boxes, std::int64_t stage) {
+    Tile& tile = tiles_[t];
+    const size_t last = tile.size() - 1;
+    double* u = tile.u.data();
+    double* u_before = u + chunk * Columns::terms;
+    double* u_first = u_before + Columns::terms;
+    V nearest = Columns::far_away();
+    Column left, left_of_first;
+    size_t k = 1;
+    do {
+      const size_t count = std::min(chunk, last - k);
+      Columns::reciprocals(tile.column(k), count, u);
+      if (k == 1) {
+        Columns::reciprocals(tile.column(0), 1, u_first);
+        physics.template sums<Rest::keep>(c, walls, tile.column(0), 1, u_first, left, nearest);
+      }
+      physics.template sums<Rest::finish>(c, walls, tile.column(k), count, u, left, nearest);
+      k += count;
+    } while (k < last);
+    fill_ghosts(t, boxes, stage);
+    Columns::reciprocals(tile.column(last), 1, u);
+    Columns::reciprocals(tile.before(), 1, u_before);
+    physics.template sums<Rest::finish>(c, walls, tile.column(last), 1, u, left, nearest);
+    physics.template sums<Rest::drop>(c, walls, tile.before(), 1, u_before, left_of_first, nearest);
+    physics.finish_kept(c, walls, tile.column(0), left_of_first, nearest);
+    Columns::mirror_at_walls(walls, tile.column(0), tile.size(), nearest);
+  }
+
+  RingLoop<Columns, true, chunk> loop_;  // holds the ring between slices
+  std::vector<Tile> tiles_;
+  FasterOfTwo choice_;
+  std::int64_t slice_ = 256;  // steps
+};
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace bounce
+HWY_AFTER_NAMESPACE();
+
+#endif
