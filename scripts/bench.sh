@@ -2,6 +2,7 @@
 # The throughput benchmark on 2 cores: results/throughput.json (raw, with its origin) and
 # results/throughput.md (the table), which goes into README, too. From a clean tree only, on an otherwise idle machine.
 #   scripts/bench.sh [--out DIR] [--allow-dirty] [-- BENCHMARK_OPTIONS]
+#   scripts/bench.sh --compare A B    two such results, or two commits: faster, slower, not told apart
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,9 +12,15 @@ while [ $# -gt 0 ]; do
   case $1 in
     --out) out=${2:?--out needs a folder}; shift 2 ;;
     --allow-dirty) dirty=yes; shift ;;
+    --compare)
+      shift
+      script=$PWD/scripts/bench_compare.py
+      cd "$OLDPWD" # where the user's files are named from
+      exec "$script" "$@"
+      ;;
     --) shift; break ;;
-    -h|--help) sed -n '2,4s/^# \?//p' "$0"; exit 0 ;;
-    *) echo "bench.sh: unknown option $1 (--out DIR, --allow-dirty, -- BENCHMARK_OPTIONS)" >&2; exit 2 ;;
+    -h|--help) sed -n '2,5s/^# \?//p' "$0"; exit 0 ;;
+    *) echo "bench.sh: unknown option $1 (--out DIR, --allow-dirty, --compare A B, -- BENCHMARK_OPTIONS)" >&2; exit 2 ;;
   esac
 done
 if [ "$dirty" = no ] && [ -n "$(git status --porcelain)" ]; then

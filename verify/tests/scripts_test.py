@@ -1,0 +1,230 @@
+#!/usr/bin/python3
+"""The scripts that judge results, on made-up results; nothing is timed. BOUNCE_PROGRAM: path of bounce."""
+import contextlib
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent.parent.parent / "scripts"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(SCRIPTS))
+
+import bench_compare
+
+MEASURE = "oracle -O3 -march=native/threads:1"
+RING = "ring avx2/threads:1"
+
+
+def results(folder, name, rows):
+    """A file as bench.sh writes it: row name to x_oracle_O3 of its repetitions."""
+    runs = [{"run_name": f"{row}/iterations:7/manual_time", "run_type": "iteration", "family_index": index,
+             "x_oracle_O3": figure}
+            for index, (row, figures) in enumerate(rows.items()) for figure in figures]
+    path = Path(folder) / name
+    path.write_text(json.dumps({"context": {"commit": name}, "benchmarks": runs}))
+    return str(path)
+
+
+def noisy(centre, seed, count=15):
+    """Repetitions that swing by a few per cent."""
+    source = random.Random(seed)
+    return [centre * math.exp(source.gauss(0.0, 0.02)) for _ in range(count)]
+
+
+class CompareFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def compare(self, a, b, *options):
+        files = [results(self.folder, name, {MEASURE: noisy(1.0, 9), RING: row})
+                 for name, row in (("a", a), ("b", b))]
+        return self.run_script(*files, *options)
+
+    def run_script(self, *words):
+        done = subprocess.run([SCRIPTS / "bench.sh", "--compare", *words], capture_output=True, text=True,
+                              check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def verdict(self, text, row=RING):
+        lines = [line for line in text.splitlines() if line.startswith(f"| {row} |")]
+        self.assertEqual(len(lines), 1, text)
+        return lines[0].split(" | ")[-1].rstrip(" |")
+
+    def test_same(self):
+        code, text, _ = self.compare(noisy(12.0, 1), noisy(12.0, 1))
+        self.assertEqual((code, self.verdict(text)), (0, "not told apart"))
+        self.assertEqual(self.verdict(text, MEASURE), "the measure")
+
+    def test_same_but_for_noise(self):
+        self.assertEqual(self.verdict(self.compare(noisy(12.0, 1), noisy(12.0, 2))[1]), "not told apart")
+
+    def test_slower_and_faster(self):
+        fast, slow = noisy(12.0, 1), noisy(12.0 / 1.1, 2)
+        self.assertEqual(self.verdict(self.compare(fast, slow)[1]), "slower")
+        self.assertEqual(self.verdict(self.compare(slow, fast)[1]), "faster")
+
+    def test_certain_but_small(self):
+        self.assertEqual(self.verdict(self.compare([12.0] * 15, [11.9] * 15)[1]), "not told apart")
+
+    def test_what_is_no_figure(self):
+        for wrong in (math.nan, math.inf, 0.0, None):
+            code, text, _ = self.compare(noisy(12.0, 1), [*noisy(12.0, 2), wrong])
+            self.assertEqual(code, 1, wrong)
+            self.assertIn("CANNOT BE JUDGED", self.verdict(text))
+
+    def test_too_few(self):
+        code, text, _ = self.compare(noisy(12.0, 1), noisy(12.0, 2, count=6))
+        self.assertEqual(code, 1)
+        self.assertIn("6 repetitions, needed are 7", self.verdict(text))
+
+    def test_row_of_one_alone(self):
+        a = results(self.folder, "a", {RING: noisy(12.0, 1), "csr avx2/threads:1": noisy(4.0, 1)})
+        b = results(self.folder, "b", {RING: noisy(12.0, 2)})
+        code, text, _ = self.run_script(a, b)
+        self.assertEqual((code, self.verdict(text, "csr avx2/threads:1")), (0, "only in A"))
+
+    def test_bad_input(self):
+        good = results(self.folder, "a", {RING: noisy(12.0, 1)})
+        torn = Path(self.folder) / "torn.json"
+        torn.write_text('{"context": {')
+        for words, complaint in (((good, str(torn)), "torn.json: not a result"),
+                                 ((good, "no-such-thing"), "no-such-thing: neither a file nor a commit"),
+                                 ((good, good, "--rounds", "3"), "allowed is 7 or more"),
+                                 ((good, good, "--rows", "none"), "no row in common"),
+                                 ((good, good, "--rows", "("), "not a regular expression")):
+            code, text, complaints = self.run_script(*words)
+            self.assertEqual((code, text), (2, ""), words)
+            self.assertIn(complaint, complaints)
+
+
+class Rule(unittest.TestCase):
+    def test_ranks_of_the_head(self):
+        known = {6: 0, 7: 1, 11: 2, 15: 3}  # of six throws even six heads come with 3.1 %
+        self.assertEqual({n: bench_compare.interval_rank(n) for n in known}, known)
+        self.assertAlmostEqual(float(bench_compare.coin_chance(7, 1)), 0.015625)
+        self.assertAlmostEqual(float(bench_compare.coin_chance(11, 2)), 24 / 2048)
+
+    def test_rank_chance(self):
+        # Of the 70 orders of 4 and 4 one has all of a first (u = 0), and one more has u = 1; twice for b.
+        self.assertAlmostEqual(float(bench_compare.rank_chance([1, 2, 3, 4], [5, 6, 7, 8])), 2 / 70)
+        self.assertAlmostEqual(float(bench_compare.rank_chance([1, 2, 3, 5], [4, 6, 7, 8])), 4 / 70)
+        self.assertEqual(bench_compare.rank_chance([1, 1, 1], [1, 1, 1]), 1)
+
+    def test_false_alarms(self):
+        # 2000 comparisons of a program with itself. Noise of 20 % dwarfs the least size, so it is the
+        # rule alone that is tried: 40 alarms expected at most, 60 are three standard deviations more.
+        judges = ((bench_compare.judge_pairs, 11), (bench_compare.judge_files, 15))
+        for judge, count in judges:
+            alarms = 0
+            for seed in range(2000):
+                source = random.Random(seed)
+                a, b = ([math.exp(source.gauss(0.0, 0.2)) for _ in range(count)] for _ in "ab")
+                alarms += judge(RING, a, b).verdict != "not told apart"
+            self.assertGreater(alarms, 0)
+            self.assertLessEqual(alarms, 60, judge.__name__)
+
+    def test_pairs(self):
+        times = noisy(800.0, 3, count=11)
+        self.assertEqual(bench_compare.judge_pairs(RING, times, times).verdict, "not told apart")
+        # 10 % slower under a clock that swings by a factor of two from pair to pair.
+        swing = [t * (1 + n % 2) for n, t in enumerate(times)]
+        slower = [1.1 * t for t in swing]
+        self.assertEqual(bench_compare.judge_pairs(RING, swing, slower).verdict, "slower")
+        self.assertEqual(bench_compare.judge_pairs(RING, slower, swing).verdict, "faster")
+        little = [1.01 * t for t in swing]
+        self.assertEqual(bench_compare.judge_pairs(RING, swing, little).verdict, "not told apart")
+        for wrong in ([*swing[1:], math.nan], swing[1:]):
+            self.assertFalse(bench_compare.judge_pairs(RING, swing, wrong).judged)
+
+
+def has_numpy():
+    with contextlib.suppress(ImportError):
+        import numpy  # noqa: F401
+
+        return True
+    return False
+
+
+@unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
+class Peers(unittest.TestCase):
+    BOUNCE = os.environ.get("BOUNCE_PROGRAM")
+
+    def test_without_lammps(self):
+        done = subprocess.run([SCRIPTS / "peers" / "compare.py", "--lammps", "no-such-lammps"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("apt-get install lammps", done.stderr)
+
+    def test_balls_are_those_of_bounce(self):
+        from peers.flying_ball import read_ball
+
+        scenes = [("example-2", []), ("example-5", []), ("law-2-4", []), ("large-ball", []),
+                  ("example-1", ["--set", "constants=double", "--set", "law.p=1", "--set", "law.q=4.5"]),
+                  ("example-6", ["--set", "ball.radii=[3.0, 4.0]", "--set", "law.rest=geometry",
+                                 "--set", "ball.per_ring=50"])]
+        for scene, settings in scenes:
+            with tempfile.TemporaryDirectory() as folder:  # its bonds are checked on the way
+                ball = read_ball(self.BOUNCE, scene, settings, Path(folder) / "run")
+            for kind in ball.classes:
+                scale = kind.attraction / kind.rest**kind.p
+                self.assertLessEqual(abs(kind.force(kind.rest)), 1e-14 * scale)
+                d = 1e-5 * kind.rest
+                slope = (kind.force(kind.rest + d) - kind.force(kind.rest - d)) / (2 * d)
+                self.assertLessEqual(abs(slope - kind.slope(kind.rest)), 1e-7 * abs(slope))
+                pull = (kind.potential(kind.rest * 1.1 - d) - kind.potential(kind.rest * 1.1 + d)) / (2 * d)
+                self.assertLessEqual(abs(pull - kind.force(kind.rest * 1.1)), 1e-7 * scale)
+
+    def test_wrong_bonds_are_noticed(self):
+        import numpy as np
+        from peers import flying_ball
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "run"
+            ball = flying_ball.read_ball(self.BOUNCE, "example-2", [], path)
+            run = flying_ball.read_run(path)
+        for change in ((0, 0, 1), (1, 2, 130)):  # a class swapped; a bond to another particle
+            bonds = ball.bonds.copy()
+            bonds[change[0]][0 if change[0] == 0 else 2] = change[2]
+            wrong = flying_ball.Ball(**{**vars(ball), "bonds": bonds})
+            with self.assertRaises(flying_ball.PeerError):
+                flying_ball.check_bonds(wrong, run)
+        nowhere = flying_ball.Ball(**{**vars(ball), "x": np.full(len(ball.x), math.nan)})
+        with self.assertRaises(flying_ball.PeerError):
+            flying_ball.check_bonds(nowhere, run)
+
+    def test_flight_ends_at_the_wall(self):
+        from peers.flying_ball import read_ball
+
+        with tempfile.TemporaryDirectory() as folder:
+            ball = read_ball(self.BOUNCE, "example-2", [], Path(folder) / "run")
+        fall = math.sqrt(2 * 0.95 * 3.0 / 0.098)  # s, for 95 % of 3 cm
+        self.assertAlmostEqual(ball.flight_steps() * 1e-6, fall, places=5)
+
+    def test_agreement_fails_when_it_must(self):
+        import numpy as np
+        from peers import agreement
+
+        def record(difference=1e-11, bound=1e-10, order=3.9, harmonic=1e-6):
+            tables = [{"entries": 250, "difference_cm": 1e-9, "bound_cm": 1e-8},
+                      {"entries": 8000, "difference_cm": difference, "bound_cm": bound}]
+            return {"steps": 1, "tables": tables, "order": order, "harmonic_difference_cm": harmonic}
+
+        agreement.check(record())
+        for wrong in ({"difference": 2e-10}, {"difference": math.nan}, {"bound": math.nan}, {"order": 2.9},
+                      {"order": math.nan}, {"harmonic": 5e-10}, {"harmonic": math.nan}):
+            with self.assertRaises(agreement.Disagreement, msg=wrong):
+                agreement.check(record(**wrong))
+        lost = np.array([[0.0, 0.0, 0.0], [0.0, math.nan, 0.0]])
+        self.assertTrue(math.isnan(agreement.apart(np.zeros((2, 3)), lost)))
+
+
+if __name__ == "__main__":
+    unittest.main()
