@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "verify/compensated_sum.hpp"
+#include "verify/powers.hpp"
+
 namespace bounce {
 namespace {
 
@@ -19,23 +22,6 @@ constexpr double rounding_share = 1e-9;
 // swing of a vibration at 82 % of the edge of stability, or of all of them, stiff and soft, nearer.
 // Example 2 gains 3 times its elastic energy at the last stable step, Example 7 5 times.
 constexpr double elastic_swing = 10.0;
-
-// A sum with the rounding errors kept aside (Neumaier), found without a branch (Knuth's two-sum):
-// signs of the terms are as good as random here.
-class CompensatedSum {
- public:
-  void add(double term) {
-    const double sum = sum_ + term;
-    const double added = sum - sum_;
-    lost_ += (sum_ - (sum - added)) + (term - added);
-    sum_ = sum;
-  }
-  [[nodiscard]] double value() const { return sum_ + lost_; }
-
- private:
-  double sum_ = 0.0;
-  double lost_ = 0.0;
-};
 
 // True if `value` should replace `smallest`; a NaN replaces any number and stays.
 bool is_smaller(double value, double smallest) {
@@ -50,6 +36,7 @@ double squared_distance(const State& s, std::size_t i, std::size_t j) {
 
 void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   const BondList& bonds = problem.bonds;
+  const PotentialOf potential_of(problem.law);
   CompensatedSum energy;
   double smallest = std::numeric_limits<double>::infinity();  // (R/R0)^2
   std::vector<double> per_rest_squared;                       // a division a class, not a bond
@@ -63,7 +50,7 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
       if (j < i) continue;  // each bond once
       const std::size_t c = bonds.bond_class[e];
       const double r2 = squared_distance(state, i, j);
-      energy.add(potential(problem.law, problem.classes[c], r2));
+      energy.add(potential_of(problem.classes[c], r2));
       const double ratio = r2 * per_rest_squared[c];
       if (is_smaller(ratio, smallest)) {
         smallest = ratio;
