@@ -7,7 +7,7 @@
 //     E + dt e (v.grad V) + dt^2 (f v.V''v + h |grad V|^2)                V: bonds and gravity
 //
 // whose coefficients e, f, h come from the method's own stages by the Baker-Campbell-Hausdorff
-// formula (Hairer, Lubich, Wanner, Geometric Numerical Integration, III.5 and IX.8). The energy E
+// formula (Hairer, Lubich, Wanner, Geometric Numerical Integration, III.4 and IX.4). The energy E
 // itself comes and goes by the added terms: they are the swing of a run. What the modified energy
 // changes by without a wall is drift, rounding, or the terms left out, of relative size (w dt)^3.
 #pragma once

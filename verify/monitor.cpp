@@ -136,6 +136,32 @@ Tightest tightest_bond(const Problem& problem, const State& state, std::size_t i
   return tightest;
 }
 
+// The bond with the most elastic energy, V(R) - V(R0): where energy that appeared from nowhere
+// sits, in a bond pressed together or pulled apart. Any bond before one whose energy is not a
+// number.
+struct Strained {
+  std::int64_t first = -1, second = -1;
+  double ratio = 0.0;  // R/R0
+};
+Strained most_strained(const Problem& problem, const State& state) {
+  Strained strained;
+  double most = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    for (std::int64_t e = problem.bonds.start[i]; e < problem.bonds.start[i + 1]; ++e) {
+      const auto entry = static_cast<std::size_t>(e);
+      const std::int64_t j = problem.bonds.neighbour[entry];
+      const BondClass& bond = problem.classes[problem.bonds.bond_class[entry]];
+      const double r2 = squared_distance(state, i, static_cast<std::size_t>(j));
+      const double energy =
+          potential(problem.law, bond, r2) - potential(problem.law, bond, bond.rest * bond.rest);
+      if (strained.first >= 0 && !(energy > most)) continue;
+      most = energy;
+      strained = {static_cast<std::int64_t>(i), j, std::sqrt(r2) / bond.rest};
+    }
+  }
+  return strained;
+}
+
 Trouble trouble_at(std::string what, std::int64_t first, std::int64_t second, double ratio) {
   what += "; bond " + std::to_string(first + 1) + "-" + std::to_string(second + 1) +
           " is at R/R0 = " + print(ratio);
@@ -178,14 +204,17 @@ std::optional<Trouble> Watch::check(const State& state, const Sample& sample) co
   if (auto trouble = non_finite_number(*problem_, state)) return trouble;
   const double gain = sample.total() - start_.total();
   if (std::isfinite(gain) && gain <= allowed_gain()) return std::nullopt;
-  std::string what =
-      "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite";
-  if (std::isfinite(gain)) {
-    what = "energy jumped by " + print(gain) + " erg, more than the " + print(allowed_gain()) +
-           " erg that start and fall account for (a smaller time step may help)";
+  if (!std::isfinite(gain)) {
+    return trouble_at(
+        "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite",
+        sample.ratio_first, sample.ratio_second, sample.smallest_ratio);
   }
-  return trouble_at(std::move(what), sample.ratio_first, sample.ratio_second,
-                    sample.smallest_ratio);
+  const Strained bond = most_strained(*problem_, state);
+  return trouble_at("energy jumped by " + print(gain) + " erg, more than the " +
+                        print(allowed_gain()) +
+                        " erg that start and fall account for (a smaller time step may help); most "
+                        "of the bonds' energy is in one",
+                    bond.first, bond.second, bond.ratio);
 }
 
 void Watch::accept(const Sample& sample) {

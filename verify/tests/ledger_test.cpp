@@ -198,7 +198,7 @@ TEST(Ledger, NaNNeverCloses) {
 // -------------------------------------------------------------------- the modified energy
 
 TEST(ModifiedEnergy, IsThatOfTheLiterature) {
-  // Hairer, Lubich, Wanner, Geometric Numerical Integration, IX.3: symplectic Euler and
+  // Hairer, Lubich, Wanner, Geometric Numerical Integration, IX: symplectic Euler and
   // Stoermer-Verlet.
   const ModifiedEnergy euler = modified_energy(*find_method("listing"));
   EXPECT_DOUBLE_EQ(euler.first, -1.0 / 2);
