@@ -3,7 +3,7 @@
 namespace bounce {
 
 RunGauges::RunGauges(const Problem& problem, int rings, double time_step, bool full)
-    : ledger_(problem, full), rings_(rings), time_step_(time_step) {}
+    : ledger_(problem, full), bounce_(problem.walls), rings_(rings), time_step_(time_step) {}
 
 void RunGauges::add(std::int64_t step, const Sample& sample, const State& state,
                     const WallBooks* books) {

@@ -122,8 +122,15 @@ void BounceGauge::add_to_impact(const Sample& sample, const Push& push) {
   impact_ = true;
   impulse_ = {impulse_.x + push.impulse.x, impulse_.y + push.impulse.y};
   if (push.contact) leaving_ = sample.momentum;
-  // Along the impulse, times its size.
-  const auto along = [this](Vec2 p) { return p.x * impulse_.x + p.y * impulse_.y; };
+  // Along the normal of the wall that pushed most.
+  const auto pushed = [this](const Wall& wall) {
+    return wall.normal.x * impulse_.x + wall.normal.y * impulse_.y;
+  };
+  const auto wall =
+      std::max_element(walls_.begin(), walls_.end(),
+                       [&pushed](const Wall& a, const Wall& b) { return pushed(a) < pushed(b); });
+  if (wall == walls_.end()) return;
+  const auto along = [&wall](Vec2 p) { return p.x * wall->normal.x + p.y * wall->normal.y; };
   const double in = -along(arriving_);
   const double out = along(leaving_);
   const double impulse = along(impulse_);

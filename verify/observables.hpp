@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "kernels/model/problem.hpp"
 #include "verify/monitor.hpp"
@@ -33,10 +35,11 @@ struct Bounce {
   double rebound_height = 0.0;      ///< greatest centre height from the lowest point on, cm
   double energy_lost = 0.0;         ///< total energy at the start less now, erg
   /// Coefficient of restitution of the first impact, Newton's: speed at which the centre of mass
-  /// leaves over speed at which it arrives, both along the impulse that the walls gave it from the
-  /// first contact to the last before the centre comes back (Principia, scholium to the laws).
-  /// None: no contact yet, not left yet, or no impact (a ball that lies or slides there: less than
-  /// a hundredth of the impulse met an arriving ball). Good to g times the interval of samples.
+  /// leaves over speed at which it arrives, both along the normal of the wall that gave it most
+  /// impulse, from the first contact to the last before the centre comes back (Principia, scholium
+  /// to the laws). None: no contact yet, not left yet, or no impact (a ball that lies or slides
+  /// there: less than a hundredth of the impulse met an arriving ball). Good to g times the
+  /// interval of samples.
   std::optional<double> restitution;
   double greatest_flattening = 0.0;  ///< of the shapes given
   double greatest_flattening_time = 0.0;
@@ -50,6 +53,10 @@ struct Push {
 
 class BounceGauge {
  public:
+  /// Of a ball above the X axis, or between these walls.
+  BounceGauge() : BounceGauge(std::vector<Wall>{Wall{}}) {}
+  explicit BounceGauge(std::vector<Wall> walls) : walls_(std::move(walls)) {}
+
   /// Contact as the samples show it (Sample::on_wall): half an interval for each of its ends in
   /// contact. That is little where particles come off the wall at once (beta near -1). Throws
   /// std::invalid_argument for a time (s) that is not after the last one, or a sample whose energy
@@ -66,6 +73,7 @@ class BounceGauge {
   void add_sample(double time, const Sample& sample);
   void add_to_impact(const Sample& sample, const Push& push);
 
+  std::vector<Wall> walls_;
   Bounce bounce_;
   bool any_ = false;
   bool touched_ = false;  // the last sample was in contact

@@ -167,17 +167,23 @@ TEST(BounceGauge, ContactAndRestitutionFromTheImpulse) {
   EXPECT_EQ(gauge.result().contact_time, 3.0);
 }
 
-// On an incline, the speed along it does not count.
-TEST(BounceGauge, RestitutionIsAlongTheImpulse) {
-  BounceGauge gauge;
-  Sample arriving = moving_at(8.0, -10.0);
-  arriving.momentum.x = 4.0;
-  gauge.add(0.0, arriving, {});
-  Sample leaving = arriving;
-  const double along = (-10.0 + 4.0) * 0.5;  // both components of the normal part
-  leaving.momentum = {4.0 - 1.5 * along, -10.0 - 1.5 * along};
-  gauge.add(1.0, leaving, {true, {-1.5 * along, -1.5 * along}});
-  gauge.add(2.0, leaving, {});
+// Speed along a wall does not count, nor what friction takes of it.
+TEST(BounceGauge, RestitutionIsAlongTheWallsNormal) {
+  Wall incline;
+  incline.normal = {std::sqrt(0.5), std::sqrt(0.5)};
+  BounceGauge gauge(std::vector<Wall>{Wall{}, incline});
+  const auto at = [&](double normal, double tangential) {
+    Sample sample = sample_at(8.0, 0, 1.0);
+    sample.momentum = {std::sqrt(0.5) * (normal - tangential),
+                       std::sqrt(0.5) * (normal + tangential)};
+    return sample;
+  };
+  gauge.add(0.0, at(-4.0, -7.0), {});
+  // Normal speed -4 to 2, tangential -7 to -5.
+  gauge.add(1.0, at(2.0, -5.0),
+            {true, {std::sqrt(0.5) * (6.0 - 2.0), std::sqrt(0.5) * (6.0 + 2.0)}});
+  gauge.add(2.0, at(2.0, -5.0), {});
+  // The axis met less of the impulse: 5.66 of it are along y, 6 along the incline's normal.
   EXPECT_NEAR(*gauge.result().restitution, 0.5, 1e-15);
 }
 
