@@ -218,8 +218,8 @@ struct BookingStepper::StageKernels {
   std::unique_ptr<Stepper> with_walls, without;
 };
 
-BookingStepper::BookingStepper(const Problem& problem, Make make)
-    : problem_(problem),
+BookingStepper::BookingStepper(Problem problem, Make make)
+    : problem_(std::move(problem)),
       make_(std::move(make)),
       with_walls_(make_(problem_)),
       without_walls_(make_(without_walls(problem_))) {

@@ -15,8 +15,8 @@
 //  4. Particles are booked one after another in their order: a bond's energy changes against the
 //     neighbours where they stand at that moment.
 //
-// The cost: steps without reflection are taken twice; a step with one costs some twenty times as
-// much.
+// The cost: steps without reflection are taken twice; one with a reflection costs as much as a
+// hundred, most of it for the energy of the whole ball before and after.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class BookingStepper final : public Stepper {
   /// its method's stages as method.
   using Make = std::function<std::unique_ptr<Stepper>(const Problem&)>;
 
-  BookingStepper(const Problem& problem, Make make);
+  BookingStepper(Problem problem, Make make);
   ~BookingStepper() override;
 
   void advance(std::int64_t steps) override;

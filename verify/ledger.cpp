@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace bounce {
 namespace {
@@ -24,8 +25,8 @@ bool LedgerReport::closes() const {
   return std::all_of(lines.begin(), lines.end(), [](const LedgerLine& l) { return l.closes(); });
 }
 
-Ledger::Ledger(const Problem& problem, bool full)
-    : problem_(problem),
+Ledger::Ledger(Problem problem, bool full)
+    : problem_(std::move(problem)),
       full_(full),
       free_energy_{.name = "energy without contact", .unit = "erg"},
       behind_{.name = "walls", .unit = "cm"} {}

@@ -80,7 +80,7 @@ struct LedgerInterval {
 class Ledger {
  public:
   /// `full`: add() will be given books.
-  explicit Ledger(const Problem& problem, bool full = false);
+  explicit Ledger(Problem problem, bool full = false);
 
   /// The next sample; the first is the start. `sample` is measure()'s of `state`; `books` those of
   /// the stepper at this step. Throws std::invalid_argument for a step that is not after the last
