@@ -13,13 +13,17 @@
 #include "driver/extended_xyz.hpp"
 #include "driver/files.hpp"
 #include "driver/interrupt.hpp"
+#include "driver/ledger_csv.hpp"
 #include "driver/monitor_csv.hpp"
 #include "driver/progress.hpp"
 #include "driver/run_directory.hpp"
+#include "driver/run_gauges.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_record.hpp"
+#include "driver/run_summary.hpp"
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
+#include "verify/booking_stepper.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
 
@@ -41,6 +45,7 @@ struct Options {
   std::string initial;
   std::string final_state;
   bool listing_frames = false;
+  bool ledger = false;
   bool force = false;
   bool quiet = false;
 
@@ -97,9 +102,11 @@ void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end
   if (is_end) write("BAL4.OUT");
 }
 
-// Runs and fills the directory with all that is written on the way.
+// Runs and fills the directory with all that is written on the way. `books`: the stepper's, or
+// null.
 RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
-                   Stepper& stepper, const fs::path& folder) {
+                   Stepper& stepper, const WallBooks* books, const fs::path& folder,
+                   RunFindings& findings) {
   const Schedule schedule(scene, options.listing_frames);
   const auto time = [&scene](std::int64_t step) {
     return static_cast<double>(step) * scene.time.step;
@@ -108,9 +115,15 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   ExtendedXyz frames(folder / "frames.extxyz", static_cast<std::size_t>(scene.ball.per_ring));
   Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
                     scene.time.step);
+  RunGauges gauges(problem, static_cast<int>(scene.ball.radii.size()), scene.time.step,
+                   books != nullptr);
+  std::optional<LedgerCsv> ledger;
+  if (books != nullptr) ledger.emplace(folder / "ledger.csv");
   RunHooks hooks;
-  hooks.sample = [&](std::int64_t step, const Sample& sample) {
-    monitor.write(time(step), sample);
+  hooks.sample = [&](std::int64_t step, const Sample& sample, const State& state) {
+    gauges.add(step, sample, state, books);
+    monitor.write(time(step), sample, gauges.last());
+    if (ledger && step > 0) ledger->write(time(step), gauges.last());
   };
   hooks.frame = [&](std::int64_t step, const State& state) {
     frames.write(step, time(step), state);
@@ -121,7 +134,9 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   hooks.progress = [&](std::int64_t step) { progress.update(step); };
   hooks.stop = interrupted;
   RunResult result = run_loop(stepper, problem, schedule, hooks);
+  findings = gauges.findings();
   monitor.close();
+  if (ledger) ledger->close();
   frames.close();
   return result;
 }
@@ -142,6 +157,7 @@ void print_summary(const RunRecord& record, const Options& options) {
   fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
              record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
   fmt::print("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
+  fmt::print("{}", summary_text(record.findings));
   fmt::print("state hash: {:016x}\n", state_hash(result.last));
   fmt::print("files: {}\n", options.directory().string());
 }
@@ -180,12 +196,21 @@ int run(const Options& options, const std::string& command_line) {
   record.bonds = problem.bonds.bonds();
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
   record.plan = make_plan(problem, options.request, entries);
-  const auto stepper = make_stepper(problem, record.plan, entries);
+  std::unique_ptr<Stepper> stepper;
+  const WallBooks* books = nullptr;
+  if (options.ledger) {
+    auto booking = make_booking_stepper(record.scene, problem, record.plan);
+    books = &booking->books();
+    stepper = std::move(booking);
+  } else {
+    stepper = make_stepper(problem, record.plan, entries);
+  }
 
   RunDirectory directory(options.directory(), options.force);
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
   catch_interrupts();
-  record.result = simulate(options, record.scene, problem, *stepper, directory.path());
+  record.result =
+      simulate(options, record.scene, problem, *stepper, books, directory.path(), record.findings);
   const std::string last = state_csv(record.result.last);
   write_text(directory.path() / "final.csv", last);
   write_text(directory.path() / "run.json", run_json(record));
@@ -213,6 +238,8 @@ void add_options(CLI::App& command, Options& options) {
                      "Write the last state to FILE: CSV, 17 significant digits");
   command.add_flag("--listing-frames", options.listing_frames,
                    "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
+  command.add_flag("--ledger", options.ledger,
+                   "Book every reflection at a wall: the same bits, several times slower");
   command.add_flag("--force", options.force, "Replace results that exist");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
@@ -225,7 +252,9 @@ void add_run_command(CLI::App& program, CommandContext& context) {
   add_options(*command, *options);
   command->footer(
       "The results: scene.toml (all values), run.json (what ran, where, how fast), monitor.csv\n"
-      "(energies and momenta), frames.extxyz (opens in OVITO and ASE), final.csv (last state).\n"
+      "(energies and momenta), frames.extxyz (opens in OVITO and ASE), final.csv (last state); "
+      "with\n"
+      "--ledger also ledger.csv (what walls and integrator did from sample to sample).\n"
       "Exit code: 0 complete, 2 bad input, 3 unstable, 130 stopped with Ctrl-C, 1 anything "
       "else.\n\n"
       "Examples:\n"

@@ -4,24 +4,28 @@
 #include <filesystem>
 
 #include "driver/files.hpp"
+#include "verify/compensated_sum.hpp"
+#include "verify/ledger.hpp"
 #include "verify/monitor.hpp"
 
 namespace bounce {
 
 /// One row a sample. t in s; energies as differences from their values at the start (run.json has
 /// those), so that no digits are lost; momenta, centre of mass and lowest point in cgs; smallest
-/// R/R0 of any bond; number of particles on a wall.
+/// R/R0 of any bond; number of particles on a wall. Since the start, as the ledger has them: energy
+/// from the walls, drift, and the walls' impulse.
 class MonitorCsv {
  public:
   explicit MonitorCsv(const std::filesystem::path& path);
   /// The first sample written is the start.
-  void write(double time, const Sample& sample);
+  void write(double time, const Sample& sample, const LedgerInterval& interval);
   void close() { file_.close(); }
 
  private:
   OutputFile file_;
   bool started_ = false;
   Sample start_;
+  CompensatedSum walls_, drift_, impulse_x_, impulse_y_;
 };
 
 }  // namespace bounce

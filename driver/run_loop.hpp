@@ -14,7 +14,7 @@ namespace bounce {
 
 /// What a run tells its surroundings. Called only with states that the watch has passed.
 struct RunHooks {
-  std::function<void(std::int64_t step, const Sample&)> sample;
+  std::function<void(std::int64_t step, const Sample&, const State&)> sample;
   std::function<void(std::int64_t step, const State&)> frame;
   std::function<void(std::int64_t step, const State&)> listing_frame;
   std::function<void(std::int64_t step)> progress;  ///< about twenty times a second or more

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/origin.hpp"
+#include "driver/run_summary.hpp"
 
 namespace bounce {
 namespace {
@@ -98,6 +99,8 @@ std::string run_json(const RunRecord& record) {
   json["method"] = record.scene.time.method;
   json["plan"] = plan_json(record.plan);
   json["energies_at_start"] = energies_json(result.start);
+  json["bounce"] = bounce_json(record.findings);
+  json["ledger"] = ledger_json(record.findings);
   json["origin"] = origin_json();
   // Names and paths need not be UTF-8; what is not is replaced.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

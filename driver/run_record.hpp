@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "driver/run_gauges.hpp"
 #include "driver/run_loop.hpp"
 #include "kernels/model/scene.hpp"
 #include "kernels/stepping/plan.hpp"
@@ -19,6 +20,7 @@ struct RunRecord {
   std::size_t particles = 0, bonds = 0;
   std::int64_t steps_asked = 0;
   RunResult result;
+  RunFindings findings;
 };
 
 /// "complete", "interrupted" or "unstable".

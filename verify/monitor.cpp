@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "verify/compensated_sum.hpp"
+#include "verify/powers.hpp"
+
 namespace bounce {
 namespace {
 
@@ -19,23 +22,6 @@ constexpr double rounding_share = 1e-9;
 // swing of a vibration at 82 % of the edge of stability, or of all of them, stiff and soft, nearer.
 // Example 2 gains 3 times its elastic energy at the last stable step, Example 7 5 times.
 constexpr double elastic_swing = 10.0;
-
-// A sum with the rounding errors kept aside (Neumaier), found without a branch (Knuth's two-sum):
-// signs of the terms are as good as random here.
-class CompensatedSum {
- public:
-  void add(double term) {
-    const double sum = sum_ + term;
-    const double added = sum - sum_;
-    lost_ += (sum_ - (sum - added)) + (term - added);
-    sum_ = sum;
-  }
-  [[nodiscard]] double value() const { return sum_ + lost_; }
-
- private:
-  double sum_ = 0.0;
-  double lost_ = 0.0;
-};
 
 // True if `value` should replace `smallest`; a NaN replaces any number and stays.
 bool is_smaller(double value, double smallest) {
@@ -50,6 +36,7 @@ double squared_distance(const State& s, std::size_t i, std::size_t j) {
 
 void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   const BondList& bonds = problem.bonds;
+  const PotentialOf potential_of(problem.law);
   CompensatedSum energy;
   double smallest = std::numeric_limits<double>::infinity();  // (R/R0)^2
   std::vector<double> per_rest_squared;                       // a division a class, not a bond
@@ -63,7 +50,7 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
       if (j < i) continue;  // each bond once
       const std::size_t c = bonds.bond_class[e];
       const double r2 = squared_distance(state, i, j);
-      energy.add(potential(problem.law, problem.classes[c], r2));
+      energy.add(potential_of(problem.classes[c], r2));
       const double ratio = r2 * per_rest_squared[c];
       if (is_smaller(ratio, smallest)) {
         smallest = ratio;
@@ -149,6 +136,32 @@ Tightest tightest_bond(const Problem& problem, const State& state, std::size_t i
   return tightest;
 }
 
+// The bond with the most elastic energy, V(R) - V(R0): where energy that appeared from nowhere
+// sits, in a bond pressed together or pulled apart. Any bond before one whose energy is not a
+// number.
+struct Strained {
+  std::int64_t first = -1, second = -1;
+  double ratio = 0.0;  // R/R0
+};
+Strained most_strained(const Problem& problem, const State& state) {
+  Strained strained;
+  double most = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    for (std::int64_t e = problem.bonds.start[i]; e < problem.bonds.start[i + 1]; ++e) {
+      const auto entry = static_cast<std::size_t>(e);
+      const std::int64_t j = problem.bonds.neighbour[entry];
+      const BondClass& bond = problem.classes[problem.bonds.bond_class[entry]];
+      const double r2 = squared_distance(state, i, static_cast<std::size_t>(j));
+      const double energy =
+          potential(problem.law, bond, r2) - potential(problem.law, bond, bond.rest * bond.rest);
+      if (strained.first >= 0 && !(energy > most)) continue;
+      most = energy;
+      strained = {static_cast<std::int64_t>(i), j, std::sqrt(r2) / bond.rest};
+    }
+  }
+  return strained;
+}
+
 Trouble trouble_at(std::string what, std::int64_t first, std::int64_t second, double ratio) {
   what += "; bond " + std::to_string(first + 1) + "-" + std::to_string(second + 1) +
           " is at R/R0 = " + print(ratio);
@@ -191,14 +204,17 @@ std::optional<Trouble> Watch::check(const State& state, const Sample& sample) co
   if (auto trouble = non_finite_number(*problem_, state)) return trouble;
   const double gain = sample.total() - start_.total();
   if (std::isfinite(gain) && gain <= allowed_gain()) return std::nullopt;
-  std::string what =
-      "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite";
-  if (std::isfinite(gain)) {
-    what = "energy jumped by " + print(gain) + " erg, more than the " + print(allowed_gain()) +
-           " erg that start and fall account for (a smaller time step may help)";
+  if (!std::isfinite(gain)) {
+    return trouble_at(
+        "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite",
+        sample.ratio_first, sample.ratio_second, sample.smallest_ratio);
   }
-  return trouble_at(std::move(what), sample.ratio_first, sample.ratio_second,
-                    sample.smallest_ratio);
+  const Strained bond = most_strained(*problem_, state);
+  return trouble_at("energy jumped by " + print(gain) + " erg, more than the " +
+                        print(allowed_gain()) +
+                        " erg that start and fall account for (a smaller time step may help); most "
+                        "of the bonds' energy is in one",
+                    bond.first, bond.second, bond.ratio);
 }
 
 void Watch::accept(const Sample& sample) {

@@ -68,6 +68,35 @@ Shape measure_shape(const State& state, int rings) {
 }
 
 void BounceGauge::add(double time, const Sample& sample) {
+  const bool any = any_;
+  const double interval = time - last_time_;
+  add_sample(time, sample);
+  const bool touches = sample.on_wall > 0;
+  if (touches) {
+    if (bounce_.first_contact < 0.0) bounce_.first_contact = time;
+    bounce_.last_contact = time;
+  }
+  if (any) {
+    const double ends = (touches ? 0.5 : 0.0) + (touched_ ? 0.5 : 0.0);
+    bounce_.contact_time += ends * interval;
+  }
+  touched_ = touches;
+}
+
+void BounceGauge::add(double time, const Sample& sample, const Push& push) {
+  const double before = last_time_;
+  const bool any = any_;
+  add_sample(time, sample);
+  if (any && push.contact) {
+    if (bounce_.first_contact < 0.0) bounce_.first_contact = before;
+    bounce_.last_contact = time;
+    bounce_.contact_time += time - before;
+  }
+  if (any) add_to_impact(sample, push);
+  last_momentum_ = sample.momentum;
+}
+
+void BounceGauge::add_sample(double time, const Sample& sample) {
   if (!std::isfinite(time) || !std::isfinite(sample.total()) || !std::isfinite(sample.centre.y)) {
     throw std::invalid_argument("a sample of a bounce is not finite");
   }
@@ -81,21 +110,41 @@ void BounceGauge::add(double time, const Sample& sample) {
     bounce_.rebound_height = height;
   }
   bounce_.rebound_height = std::max(bounce_.rebound_height, height);
-  const bool touches = sample.on_wall > 0;
-  if (touches) {
-    if (bounce_.first_contact < 0.0) bounce_.first_contact = time;
-    bounce_.last_contact = time;
-  }
-  if (!any_) {
-    start_energy_ = sample.total();
-  } else {
-    const double ends = (touches ? 0.5 : 0.0) + (touched_ ? 0.5 : 0.0);
-    bounce_.contact_time += ends * (time - last_time_);
-  }
+  if (!any_) start_energy_ = sample.total();
   bounce_.energy_lost = start_energy_ - sample.total();
   last_time_ = time;
-  touched_ = touches;
   any_ = true;
+}
+
+void BounceGauge::add_to_impact(const Sample& sample, const Push& push) {
+  if (impact_over_ || !(impact_ || push.contact)) return;
+  if (!impact_) arriving_ = last_momentum_;
+  impact_ = true;
+  impulse_ = {impulse_.x + push.impulse.x, impulse_.y + push.impulse.y};
+  if (push.contact) leaving_ = sample.momentum;
+  // Along the normal of the wall that pushed most.
+  const auto pushed = [this](const Wall& wall) {
+    return wall.normal.x * impulse_.x + wall.normal.y * impulse_.y;
+  };
+  const auto wall =
+      std::max_element(walls_.begin(), walls_.end(),
+                       [&pushed](const Wall& a, const Wall& b) { return pushed(a) < pushed(b); });
+  if (wall == walls_.end()) return;
+  const auto along = [&wall](Vec2 p) { return p.x * wall->normal.x + p.y * wall->normal.y; };
+  const double in = -along(arriving_);
+  const double out = along(leaving_);
+  const double impulse = along(impulse_);
+  constexpr double least_share = 0.01;
+  const bool left = !push.contact && out > 0.0 && in > least_share * impulse;
+  bounce_.restitution = left ? std::optional(out / in) : std::nullopt;
+  impact_over_ = !push.contact && out > 0.0 && along(sample.momentum) < 0.0;
+}
+
+void BounceGauge::add_shape(double time, const Shape& shape) {
+  if (!(shape.flattening <= bounce_.greatest_flattening)) {
+    bounce_.greatest_flattening = shape.flattening;
+    bounce_.greatest_flattening_time = time;
+  }
 }
 
 }  // namespace bounce

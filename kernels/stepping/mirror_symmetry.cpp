@@ -14,16 +14,15 @@ bool moves_as_image(const State& state, std::size_t i, std::size_t j) {
 }  // namespace
 
 std::string not_symmetric(const State& state, const RingShape& shape, std::int64_t sum) {
-  std::string moves;
   for (int ring = 0; ring < shape.rings; ++ring) {
     for (std::int64_t k = 0; k < shape.per_ring; ++k) {
       const std::int64_t first = ring * shape.per_ring;
       const auto i = static_cast<std::size_t>(first + k);
       const auto j = static_cast<std::size_t>(first + mirror_image(shape, sum, ring, k));
-      std::string pair = "particles " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
-                         " are not mirror images about x = 0";
-      if (!is_image(state, i, j)) return pair;
-      if (!moves_as_image(state, i, j)) return pair + " in their velocities";
+      const bool image = is_image(state, i, j);
+      if (image && moves_as_image(state, i, j)) continue;
+      return "particles " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
+             " are not mirror images about x = 0" + (image ? " in their velocities" : "");
     }
   }
   return {};

@@ -130,6 +130,59 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   EXPECT_EQ(entry(folder_ / "again/run.json", "state_hash"), hash);
 }
 
+// The ball of Example 2 just above the axis, at the speed it has there after its fall.
+Words to_the_wall(const Words& more) {
+  Words words{"run",     "example-2",
+              "--set",   "ball.centre=[0, 7.002]",
+              "--set",   "ball.velocity=[0, -0.7668]",
+              "--set",   "output.monitor_every=0.001",
+              "--steps", "12000"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(DriverRunTest, ARunTellsItsBounceAndItsLedgers) {
+  ASSERT_EQ(run(to_the_wall({"--out", "r"})), 0) << err();
+  for (const char* word : {"energy: ", " lost to the walls (from samples)", "bounce: contact from ",
+                           "greatest flattening 0.", "ledgers close on the ", "momentum y"}) {
+    EXPECT_NE(out().find(word), std::string::npos) << word << " not in: " << out();
+  }
+  const std::string json = contents(folder_ / "r/run.json");
+  for (const char* word : {"\"form\": \"samples\"", "\"closes\": true", "\"first_contact\": 0.00",
+                           "\"restitution\": null", "\"greatest_flattening\": "}) {
+    EXPECT_NE(json.find(word), std::string::npos) << word << " not in: " << json;
+  }
+  const std::string monitor = contents(folder_ / "r/monitor.csv");
+  EXPECT_NE(monitor.find(",on_wall,walls,drift,impulse_x,impulse_y\n"), std::string::npos);
+}
+
+TEST_F(DriverRunTest, BookingEveryReflectionChangesNoBit) {
+  for (const std::string kernel : {"auto", "ring", "oracle"}) {
+    ASSERT_EQ(run(to_the_wall({"--kernel", kernel, "--force", "--out", "r"})), 0) << err();
+    ASSERT_EQ(run(to_the_wall({"--kernel", kernel, "--ledger", "--force", "--out", "s"})), 0)
+        << err();
+    EXPECT_NE(out().find("ledgers close, every reflection booked"), std::string::npos) << out();
+    EXPECT_EQ(contents(folder_ / "r/final.csv"), contents(folder_ / "s/final.csv")) << kernel;
+    EXPECT_EQ(lines(contents(folder_ / "s/ledger.csv")), 13U);  // header, one a millisecond
+    const std::string json = contents(folder_ / "s/run.json");
+    EXPECT_NE(json.find("\"form\": \"full\""), std::string::npos) << json;
+    EXPECT_EQ(json.find("\"reflections\": 0,"), std::string::npos) << json;
+  }
+}
+
+TEST_F(DriverRunTest, AnUnstableRunWithBooksEndsAsWithout) {
+  const Words words{"run",   "example-2",
+                    "--set", "time.step=3.9e-4",
+                    "--set", "time.method=leapfrog",
+                    "--set", "output.monitor_every=1"};
+  Words plain = words, booked = words;
+  plain.insert(plain.end(), {"--out", "r"});
+  booked.insert(booked.end(), {"--ledger", "--out", "s"});
+  ASSERT_EQ(run(plain), 3) << err();
+  ASSERT_EQ(run(booked), 3) << err();
+  EXPECT_EQ(contents(folder_ / "r/final.csv"), contents(folder_ / "s/final.csv"));
+}
+
 TEST_F(DriverRunTest, BadInputExitsWith2AndLeavesNothing) {
   std::ofstream(folder_ / "bad.toml") << "[law]\nq = 1\n";
   std::ofstream(folder_ / "short.dat") << "      1.0000      2.0000      0.0000      0.0000\n";

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "verify/oracle.hpp"
 #include "verify/tests/paper_scenes.hpp"
@@ -176,15 +177,23 @@ TEST_F(WatchTest, CatchesAnEnergyJumpAndNamesTheBond) {
   sample.kinetic += 0.9 * limit;
   EXPECT_FALSE(watch_.check(state_, sample));
   sample.kinetic += 0.2 * limit;
-  sample.ratio_first = 5;
-  sample.ratio_second = 6;
-  sample.smallest_ratio = 0.25;
-  const auto trouble = watch_.check(state_, sample);
+  // On ring 1 bond 1-2 pulled apart, its room taken from the sixty bonds behind it: these and bonds
+  // to ring 2 are tighter, but have less energy.
+  State state = state_;
+  const double spacing = 2.0 * std::numbers::pi / 120.0;
+  for (std::size_t k = 1; k <= 60; ++k) {
+    const double share = 1.0 - static_cast<double>(k - 1) / 60.0;
+    const double angle = spacing * (static_cast<double>(k) + 0.3 * share);
+    state.x[k] = 5.0 * std::cos(angle);
+    state.y[k] = 10.0 + 5.0 * std::sin(angle);
+  }
+  EXPECT_NE(measure(problem_, state).ratio_first, 0);
+  const auto trouble = watch_.check(state, sample);
   ASSERT_TRUE(trouble);
   EXPECT_TRUE(mentions(*trouble, "energy jumped by")) << trouble->what;
-  EXPECT_TRUE(mentions(*trouble, "bond 6-7 is at R/R0 = 0.25")) << trouble->what;
-  EXPECT_EQ(trouble->particle, 5);
-  EXPECT_EQ(trouble->bond_second, 6);
+  EXPECT_TRUE(mentions(*trouble, "bond 1-2 is at R/R0 = 1.3")) << trouble->what;
+  EXPECT_EQ(trouble->particle, 0);
+  EXPECT_EQ(trouble->bond_second, 1);
 }
 
 // What falls may move: gravity's energy set free is no jump, even if half of it comes in at once.

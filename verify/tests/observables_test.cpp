@@ -134,5 +134,82 @@ TEST(BounceGauge, RefusesDisorder) {
   EXPECT_THROW(gauge.add(2.0, sample_at(10.0, 0, nan)), std::invalid_argument);
 }
 
+// A centre of mass at that height with that vertical momentum.
+Sample moving_at(double height, double momentum) {
+  Sample sample = sample_at(height, 0, 1.0);
+  sample.momentum = {0.0, momentum};
+  return sample;
+}
+
+// A ball in chatter: the wall pushes, lets go and pushes again before the ball leaves.
+TEST(BounceGauge, ContactAndRestitutionFromTheImpulse) {
+  BounceGauge gauge;
+  gauge.add(0.0, moving_at(10.0, 0.0), {});
+  gauge.add(1.0, moving_at(8.0, -10.0), {});
+  EXPECT_FALSE(gauge.result().restitution);
+  EXPECT_EQ(gauge.result().first_contact, -1.0);
+  gauge.add(2.0, moving_at(7.0, 2.0), {true, {0.0, 13.0}});
+  EXPECT_FALSE(gauge.result().restitution);  // not left
+  gauge.add(3.0, moving_at(7.5, 1.0), {});
+  EXPECT_DOUBLE_EQ(*gauge.result().restitution, 0.2);
+  gauge.add(4.0, moving_at(7.6, 6.0), {true, {0.0, 6.0}});
+  EXPECT_FALSE(gauge.result().restitution);
+  gauge.add(5.0, moving_at(8.0, 5.0), {});
+  EXPECT_DOUBLE_EQ(*gauge.result().restitution, 0.6);
+  EXPECT_EQ(gauge.result().first_contact, 1.0);
+  EXPECT_EQ(gauge.result().last_contact, 4.0);
+  EXPECT_EQ(gauge.result().contact_time, 2.0);
+  // The second bounce does not count.
+  gauge.add(6.0, moving_at(8.0, -5.0), {});
+  gauge.add(7.0, moving_at(7.0, 1.0), {true, {0.0, 7.0}});
+  gauge.add(8.0, moving_at(7.1, 0.5), {});
+  EXPECT_DOUBLE_EQ(*gauge.result().restitution, 0.6);
+  EXPECT_EQ(gauge.result().contact_time, 3.0);
+}
+
+// Speed along a wall does not count, nor what friction takes of it.
+TEST(BounceGauge, RestitutionIsAlongTheWallsNormal) {
+  Wall incline;
+  incline.normal = {std::sqrt(0.5), std::sqrt(0.5)};
+  BounceGauge gauge(std::vector<Wall>{Wall{}, incline});
+  const auto at = [&](double normal, double tangential) {
+    Sample sample = sample_at(8.0, 0, 1.0);
+    sample.momentum = {std::sqrt(0.5) * (normal - tangential),
+                       std::sqrt(0.5) * (normal + tangential)};
+    return sample;
+  };
+  gauge.add(0.0, at(-4.0, -7.0), {});
+  // Normal speed -4 to 2, tangential -7 to -5.
+  gauge.add(1.0, at(2.0, -5.0),
+            {true, {std::sqrt(0.5) * (6.0 - 2.0), std::sqrt(0.5) * (6.0 + 2.0)}});
+  gauge.add(2.0, at(2.0, -5.0), {});
+  // The axis met less of the impulse: 5.66 of it are along y, 6 along the incline's normal.
+  EXPECT_NEAR(*gauge.result().restitution, 0.5, 1e-15);
+}
+
+TEST(BounceGauge, NoRestitutionWithoutAnImpact) {
+  BounceGauge resting;
+  resting.add(0.0, moving_at(7.0, 0.0), {});
+  for (int i = 1; i < 50; ++i) resting.add(i, moving_at(7.0, 0.0), {true, {0.0, 35.0}});
+  resting.add(50.0, moving_at(7.0, 1.0), {});
+  EXPECT_FALSE(resting.result().restitution);
+  BounceGauge dead;
+  dead.add(0.0, moving_at(7.0, -5.0), {});
+  dead.add(1.0, moving_at(7.0, 0.0), {true, {0.0, 40.0}});
+  dead.add(2.0, moving_at(7.0, 0.0), {true, {0.0, 35.0}});
+  EXPECT_FALSE(dead.result().restitution);
+}
+
+TEST(BounceGauge, KeepsTheGreatestFlattening) {
+  BounceGauge gauge;
+  for (const double flattening : {0.1, 0.3, 0.2}) {
+    Shape shape;
+    shape.flattening = flattening;
+    gauge.add_shape(10.0 * flattening, shape);
+  }
+  EXPECT_EQ(gauge.result().greatest_flattening, 0.3);
+  EXPECT_EQ(gauge.result().greatest_flattening_time, 3.0);
+}
+
 }  // namespace
 }  // namespace bounce

@@ -1,0 +1,240 @@
+#include "verify/inspection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "verify/powers.hpp"
+
+namespace bounce {
+namespace {
+
+// Roundings of a bond's force, from the differences of the coordinates to the product with them:
+// what csr and strict may differ by between its two ends.
+constexpr double force_roundings = 8.0;
+// Roundings of one bond's potential, on the sizes of its two terms.
+constexpr double potential_roundings = 6.0;
+
+// Roundings of a mirrored coordinate: distance, twice it, product and difference.
+constexpr double mirror_roundings = 16.0;
+
+// What acts on one particle, without the time step.
+struct Load {
+  Vec2 net;                  // force of bonds and gravity
+  Vec2 sum;                  // of the sizes of the bonds' forces
+  Vec2 parts, parts_square;  // of the sizes of their attraction and repulsion, and of the squares
+  double stiffness = 0.0;
+  double neighbours = 0.0;
+};
+
+// Sums over the bonds of one state.
+struct BondSums {
+  std::vector<Load> loads;
+  double stiffness = 0.0;  // v.V''v
+  double elastic = 0.0;    // less the bond energy at rest
+  RoundingSize energy;
+};
+
+void load_end(Load& load, double sign, double f, double size, double stiffness, double dx,
+              double dy) {
+  load.net.x += sign * f * dx;
+  load.net.y += sign * f * dy;
+  load.sum.x += std::abs(f * dx);
+  load.sum.y += std::abs(f * dy);
+  load.parts.x += size * std::abs(dx);
+  load.parts.y += size * std::abs(dy);
+  load.parts_square.x += size * dx * size * dx;
+  load.parts_square.y += size * dy * size * dy;
+  load.stiffness += stiffness;
+  load.neighbours += 1.0;
+}
+
+class BondLoader {
+ public:
+  BondLoader(const Problem& problem, const State& state)
+      : problem_(problem),
+        s_(state),
+        attraction_(problem.law.p + 1.0),
+        repulsion_(problem.law.q + 1.0) {}
+
+  void add(std::size_t i, std::size_t j, const BondClass& bond, BondSums& sums) const {
+    const double dx = s_.x[i] - s_.x[j], dy = s_.y[i] - s_.y[j];
+    const double wx = s_.vx[i] - s_.vx[j], wy = s_.vy[i] - s_.vy[j];
+    const double r2 = dx * dx + dy * dy;
+    const double u = 1.0 / r2;
+    const double attraction = bond.attraction * attraction_(u);                      // G/R^(p+1)
+    const double repulsion = bond.repulsion * repulsion_(u);                         // H/R^(q+1)
+    const double f = repulsion - attraction;                                         // F/R = -V'/R
+    const double second = problem_.law.q * repulsion - problem_.law.p * attraction;  // V''
+    const double along = (wx * dx + wy * dy) * (wx * dx + wy * dy) * u;
+    sums.stiffness += second * along - f * (wx * wx + wy * wy - along);
+    const double size = repulsion + attraction;
+    const double stiffest = std::max(std::abs(second), std::abs(f));
+    load_end(sums.loads[i], 1.0, f, size, stiffest, dx, dy);
+    load_end(sums.loads[j], -1.0, f, size, stiffest, dx, dy);
+    sums.energy.add(size * r2, potential_roundings);  // V is of the size of F R
+  }
+
+ private:
+  const Problem& problem_;
+  const State& s_;
+  PowerOf attraction_, repulsion_;
+};
+
+BondSums load_bonds(const Problem& problem, const State& s) {
+  BondSums sums;
+  sums.loads.resize(s.size());
+  const BondLoader loader(problem, s);
+  double rest = 0.0;
+  std::vector<double> rest_energy;
+  for (const BondClass& bond : problem.classes) {
+    rest_energy.push_back(potential(problem.law, bond, bond.rest * bond.rest));
+  }
+  const BondList& bonds = problem.bonds;
+  for (std::size_t i = 0; i < bonds.particles(); ++i) {
+    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
+      const auto entry = static_cast<std::size_t>(e);
+      const auto j = static_cast<std::size_t>(bonds.neighbour[entry]);
+      if (j < i) continue;
+      rest += rest_energy[bonds.bond_class[entry]];
+      loader.add(i, j, problem.classes[bonds.bond_class[entry]], sums);
+    }
+  }
+  for (Load& load : sums.loads) {
+    load.net.x += problem.gravity.x;
+    load.net.y += problem.gravity.y;
+  }
+  sums.elastic = -rest;
+  return sums;
+}
+
+double square(double value) { return value * value; }
+
+// Roundings of one velocity component in a stage of that kick: additions whose partial sums are no
+// greater than all sizes together, and the forces' own.
+RoundingSize of_velocity(double speed, double kick, double gravity, double sum, double parts,
+                         double parts_square, double neighbours) {
+  RoundingSize rounding;
+  rounding.add(std::abs(speed) + kick * (std::abs(gravity) + sum), neighbours + 2.0);
+  rounding.worst += force_roundings * unit_roundoff * kick * parts;
+  rounding.variance += force_roundings * square(unit_roundoff * kick) * parts_square / 3.0;
+  return rounding;
+}
+
+// Adds `error` of a number to a balance in which that number counts `lever` times.
+void carry(RoundingSize& balance, const RoundingSize& error, double lever) {
+  balance.worst += error.worst * std::abs(lever);
+  balance.variance += error.variance * square(lever);
+}
+
+void add_stage(const Problem& problem, const State& s, const Sample& sample, double kick,
+               const std::vector<Load>& loads, StepRounding& step) {
+  const auto n = static_cast<double>(s.size());
+  const Vec2 velocity{sample.momentum.x / n, sample.momentum.y / n};
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const Load& load = loads[i];
+    const RoundingSize vx = of_velocity(s.vx[i], kick, problem.gravity.x, load.sum.x, load.parts.x,
+                                        load.parts_square.x, load.neighbours);
+    const RoundingSize vy = of_velocity(s.vy[i], kick, problem.gravity.y, load.sum.y, load.parts.y,
+                                        load.parts_square.y, load.neighbours);
+    RoundingSize x, y;
+    x.add(s.x[i]);
+    y.add(s.y[i]);
+    step.momentum_x.add(vx);
+    step.momentum_y.add(vy);
+    carry(step.angular, vx, s.y[i] - sample.centre.y);
+    carry(step.angular, vy, s.x[i] - sample.centre.x);
+    carry(step.angular, x, s.vy[i] - velocity.y);
+    carry(step.angular, y, s.vx[i] - velocity.x);
+    carry(step.energy, vx, s.vx[i]);
+    carry(step.energy, vy, s.vy[i]);
+    carry(step.energy, x, load.net.x);
+    carry(step.energy, y, load.net.y);
+  }
+}
+
+void measure_rounding(const Problem& problem, const State& s, const Sample& sample,
+                      Inspection& here) {
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double rx = std::abs(s.x[i] - sample.centre.x), ry = std::abs(s.y[i] - sample.centre.y);
+    here.angular.add(rx * s.vy[i], 2.0);
+    here.angular.add(ry * s.vx[i], 2.0);
+    here.energy.add(0.5 * (s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]), 3.0);
+    here.energy.add(problem.gravity.x * s.x[i]);
+    here.energy.add(problem.gravity.y * s.y[i]);
+  }
+  // The centre of mass is rounded, too, and so are the sums and differences of them.
+  here.angular.add(sample.centre.x * sample.momentum.y, 2.0);
+  here.angular.add(sample.centre.y * sample.momentum.x, 2.0);
+  here.angular.add(sample.angular_momentum);
+  here.energy.add(std::abs(sample.kinetic) + std::abs(sample.bond) + std::abs(sample.gravity), 3.0);
+}
+
+void measure_reach(const Problem& problem, const State& s, Inspection& here) {
+  here.nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    here.fastest = std::max(here.fastest, s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]);
+    for (const Wall& wall : problem.walls) {
+      const double distance = wall_distance(wall, s.x[i], s.y[i]);
+      const double size = std::abs(s.x[i]) + std::abs(s.y[i]) + std::abs(wall.offset);
+      here.nearest = std::min(here.nearest, distance);
+      here.behind = std::max(here.behind, -distance - mirror_roundings * unit_roundoff * size);
+    }
+  }
+  here.fastest = std::sqrt(here.fastest);
+}
+
+}  // namespace
+
+ModifiedEnergy modified_energy(const Method& method) {
+  // The logarithm of the step so far: a A + b B + e [A,B] + f [A,[A,B]] + h [B,[B,A]], A the drift,
+  // B the kick, what is done first standing left. exp(.) of each further part is multiplied on the
+  // right. As Lie derivatives [A,B], [A,[A,B]], [B,[B,A]] belong to v.grad V, v.V''v, |grad V|^2.
+  double a = 0.0, b = 0.0;
+  ModifiedEnergy z;
+  for (const Stage& stage : method.stages) {
+    const double k = stage.kick;
+    z.stiffness += a * a * k / 12.0;
+    z.force += 0.5 * k * z.first - a * b * k / 12.0 + a * k * k / 12.0;
+    z.first += 0.5 * a * k;
+    b += k;
+    const double c = stage.drift;
+    z.stiffness += -0.5 * c * z.first - a * b * c / 12.0 + c * c * b / 12.0;
+    z.force += c * b * b / 12.0;
+    z.first -= 0.5 * c * b;
+    a += c;
+  }
+  return z;
+}
+
+Inspection inspect(const Problem& problem, const State& state, const Sample& sample) {
+  const BondSums sums = load_bonds(problem, state);
+  Inspection here;
+  double power = 0.0;  // of bonds and gravity, -v.grad V
+  double force = 0.0;  // |grad V|^2
+  double row = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Load& load = sums.loads[i];
+    power += load.net.x * state.vx[i] + load.net.y * state.vy[i];
+    force += load.net.x * load.net.x + load.net.y * load.net.y;
+    row = std::max(row, load.stiffness);
+  }
+  const ModifiedEnergy z = modified_energy(*problem.method);
+  const double dt = problem.step;
+  here.swing = dt * (dt * (z.stiffness * sums.stiffness + z.force * force) - z.first * power);
+  const auto n = static_cast<double>(state.size());
+  here.internal = sample.kinetic -
+                  0.5 * (square(sample.momentum.x) + square(sample.momentum.y)) / n + sample.bond +
+                  sums.elastic;
+  here.frequency = std::sqrt(2.0 * row);
+  measure_reach(problem, state, here);
+  measure_rounding(problem, state, sample, here);
+  here.energy.add(sums.energy);
+  for (const Stage& stage : problem.method->stages) {
+    add_stage(problem, state, sample, std::abs(stage.kick) * dt, sums.loads, here.step);
+  }
+  return here;
+}
+
+}  // namespace bounce
