@@ -14,6 +14,7 @@
 #include "driver/files.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/ledger_csv.hpp"
+#include "driver/memory_check.hpp"
 #include "driver/monitor_csv.hpp"
 #include "driver/progress.hpp"
 #include "driver/run_directory.hpp"
@@ -191,7 +192,8 @@ int run(const Options& options, const std::string& command_line) {
   record.initial = options.initial;
   record.scene = file.scene();
   record.steps_asked = record.scene.steps_until(record.scene.time.end);
-  const Problem problem = prepare(file, options);
+  check_memory(file, options.request.kernel, available_memory());
+  Problem problem = prepare(file, options);
   record.particles = problem.initial.size();
   record.bonds = problem.bonds.bonds();
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
@@ -205,17 +207,18 @@ int run(const Options& options, const std::string& command_line) {
   } else {
     stepper = make_stepper(problem, record.plan, entries);
   }
+  problem.initial = State();  // the stepper holds the particles now
 
   RunDirectory directory(options.directory(), options.force);
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
   catch_interrupts();
   record.result =
       simulate(options, record.scene, problem, *stepper, books, directory.path(), record.findings);
-  const std::string last = state_csv(record.result.last);
-  write_text(directory.path() / "final.csv", last);
+  const auto write_last = [&record](OutputFile& out) { write_state_csv(out, record.result.last); };
+  write_file_whole(directory.path() / "final.csv", write_last);
   write_text(directory.path() / "run.json", run_json(record));
   directory.publish();
-  if (!options.final_state.empty()) write_file_whole(options.final_state, last);
+  if (!options.final_state.empty()) write_file_whole(options.final_state, write_last);
   if (!options.quiet) print_summary(record, options);
   return report_end(record, options);
 }

@@ -11,6 +11,7 @@ ExtendedXyz::ExtendedXyz(std::filesystem::path path, std::size_t per_ring)
     : path_(std::move(path)), per_ring_(per_ring) {}
 
 void ExtendedXyz::write(std::int64_t step, double time, const State& state) {
+  if (!file_) file_.emplace(path_);
   fmt::memory_buffer out;
   const auto end = std::back_inserter(out);
   // Species X: no chemical element, in ASE's table too.
@@ -21,8 +22,8 @@ void ExtendedXyz::write(std::int64_t step, double time, const State& state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     fmt::format_to(end, "X {} {} 0.0 {} {} 0.0 {}\n", state.x[i], state.y[i], state.vx[i],
                    state.vy[i], i / per_ring_ + 1);
+    file_->write_large(out);
   }
-  if (!file_) file_.emplace(path_);
   file_->write({out.data(), out.size()});
   file_->flush();
 }

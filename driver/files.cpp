@@ -50,6 +50,13 @@ void OutputFile::write(std::string_view text) {
   }
 }
 
+void OutputFile::write_large(fmt::memory_buffer& text) {
+  constexpr std::size_t large = std::size_t{1} << 20;  // bytes
+  if (text.size() < large) return;
+  write({text.data(), text.size()});
+  text.clear();
+}
+
 void OutputFile::flush() {
   if (std::fflush(file_.get()) != 0) throw write_error(path_);
 }
@@ -74,11 +81,15 @@ void check_output_path(const fs::path& path, bool overwrite) {
 }
 
 void write_file_whole(const fs::path& path, std::string_view text) {
+  write_file_whole(path, [text](OutputFile& file) { file.write(text); });
+}
+
+void write_file_whole(const fs::path& path, const std::function<void(OutputFile&)>& fill) {
   fs::path temporary = path;
   temporary += fmt::format(".partial-{}", ::getpid());
   try {
     OutputFile file(temporary);
-    file.write(text);
+    fill(file);
     file.close();
     fs::rename(temporary, path);
   } catch (...) {

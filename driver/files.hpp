@@ -3,9 +3,12 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include <fmt/format.h>
 
 namespace bounce {
 
@@ -18,6 +21,8 @@ class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path path);
   void write(std::string_view text);
+  /// Writes and empties the text if it has become large, so that it need not be held whole.
+  void write_large(fmt::memory_buffer& text);
   /// Hands what was written to the operating system.
   void flush();
   /// Flushes and closes; the destructor closes, too, but cannot report an error.
@@ -37,5 +42,8 @@ void check_output_path(const std::filesystem::path& path, bool overwrite);
 
 /// Writes a file under a temporary name and renames it, so that it appears whole.
 void write_file_whole(const std::filesystem::path& path, std::string_view text);
+/// The same for what `fill` writes into the file.
+void write_file_whole(const std::filesystem::path& path,
+                      const std::function<void(OutputFile&)>& fill);
 
 }  // namespace bounce

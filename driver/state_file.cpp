@@ -88,14 +88,15 @@ State read_csv(const std::string& path, std::string_view rest) {
 
 }  // namespace
 
-std::string state_csv(const State& state) {
+void write_state_csv(OutputFile& file, const State& state) {
   fmt::memory_buffer out;
   fmt::format_to(std::back_inserter(out), "{}\n", csv_header);
   for (std::size_t i = 0; i < state.size(); ++i) {
     fmt::format_to(std::back_inserter(out), "{},{:.17g},{:.17g},{:.17g},{:.17g}\n", i + 1,
                    state.x[i], state.y[i], state.vx[i], state.vy[i]);
+    file.write_large(out);
   }
-  return fmt::to_string(out);
+  file.write({out.data(), out.size()});
 }
 
 State read_state(const std::string& path) {

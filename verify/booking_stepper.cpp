@@ -146,13 +146,10 @@ class Bookkeeper {
   // Of all bonds of particle i.
   [[nodiscard]] double bond_energy(std::size_t i) const {
     CompensatedSum energy;
-    const BondList& bonds = problem_.bonds;
-    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-      const auto entry = static_cast<std::size_t>(e);
-      const auto j = static_cast<std::size_t>(bonds.neighbour[entry]);
+    problem_.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
       const double dx = state_.x[i] - state_.x[j], dy = state_.y[i] - state_.y[j];
-      energy.add(potential_of_(problem_.classes[bonds.bond_class[entry]], dx * dx + dy * dy));
-    }
+      energy.add(potential_of_(problem_.classes[c], dx * dx + dy * dy));
+    });
     return energy.value();
   }
 

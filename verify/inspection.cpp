@@ -52,21 +52,18 @@ void load_end(Load& load, double sign, double f, double size, double stiffness, 
 
 class BondLoader {
  public:
-  BondLoader(const Problem& problem, const State& state)
-      : problem_(problem),
-        s_(state),
-        attraction_(problem.law.p + 1.0),
-        repulsion_(problem.law.q + 1.0) {}
+  BondLoader(const Model& model, const State& state)
+      : model_(model), s_(state), attraction_(model.law.p + 1.0), repulsion_(model.law.q + 1.0) {}
 
   void add(std::size_t i, std::size_t j, const BondClass& bond, BondSums& sums) const {
     const double dx = s_.x[i] - s_.x[j], dy = s_.y[i] - s_.y[j];
     const double wx = s_.vx[i] - s_.vx[j], wy = s_.vy[i] - s_.vy[j];
     const double r2 = dx * dx + dy * dy;
     const double u = 1.0 / r2;
-    const double attraction = bond.attraction * attraction_(u);                      // G/R^(p+1)
-    const double repulsion = bond.repulsion * repulsion_(u);                         // H/R^(q+1)
-    const double f = repulsion - attraction;                                         // F/R = -V'/R
-    const double second = problem_.law.q * repulsion - problem_.law.p * attraction;  // V''
+    const double attraction = bond.attraction * attraction_(u);                  // G/R^(p+1)
+    const double repulsion = bond.repulsion * repulsion_(u);                     // H/R^(q+1)
+    const double f = repulsion - attraction;                                     // F/R = -V'/R
+    const double second = model_.law.q * repulsion - model_.law.p * attraction;  // V''
     const double along = (wx * dx + wy * dy) * (wx * dx + wy * dy) * u;
     sums.stiffness += second * along - f * (wx * wx + wy * wy - along);
     const double size = repulsion + attraction;
@@ -77,33 +74,30 @@ class BondLoader {
   }
 
  private:
-  const Problem& problem_;
+  const Model& model_;
   const State& s_;
   PowerOf attraction_, repulsion_;
 };
 
-BondSums load_bonds(const Problem& problem, const State& s) {
+BondSums load_bonds(const Model& model, const State& s) {
   BondSums sums;
   sums.loads.resize(s.size());
-  const BondLoader loader(problem, s);
+  const BondLoader loader(model, s);
   double rest = 0.0;
   std::vector<double> rest_energy;
-  for (const BondClass& bond : problem.classes) {
-    rest_energy.push_back(potential(problem.law, bond, bond.rest * bond.rest));
+  for (const BondClass& bond : model.classes) {
+    rest_energy.push_back(potential(model.law, bond, bond.rest * bond.rest));
   }
-  const BondList& bonds = problem.bonds;
-  for (std::size_t i = 0; i < bonds.particles(); ++i) {
-    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
-      const auto entry = static_cast<std::size_t>(e);
-      const auto j = static_cast<std::size_t>(bonds.neighbour[entry]);
-      if (j < i) continue;
-      rest += rest_energy[bonds.bond_class[entry]];
-      loader.add(i, j, problem.classes[bonds.bond_class[entry]], sums);
-    }
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    model.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+      if (j < i) return;
+      rest += rest_energy[c];
+      loader.add(i, j, model.classes[c], sums);
+    });
   }
   for (Load& load : sums.loads) {
-    load.net.x += problem.gravity.x;
-    load.net.y += problem.gravity.y;
+    load.net.x += model.gravity.x;
+    load.net.y += model.gravity.y;
   }
   sums.elastic = -rest;
   return sums;
@@ -128,15 +122,15 @@ void carry(RoundingSize& balance, const RoundingSize& error, double lever) {
   balance.variance += error.variance * square(lever);
 }
 
-void add_stage(const Problem& problem, const State& s, const Sample& sample, double kick,
+void add_stage(const Model& model, const State& s, const Sample& sample, double kick,
                const std::vector<Load>& loads, StepRounding& step) {
   const auto n = static_cast<double>(s.size());
   const Vec2 velocity{sample.momentum.x / n, sample.momentum.y / n};
   for (std::size_t i = 0; i < s.size(); ++i) {
     const Load& load = loads[i];
-    const RoundingSize vx = of_velocity(s.vx[i], kick, problem.gravity.x, load.sum.x, load.parts.x,
+    const RoundingSize vx = of_velocity(s.vx[i], kick, model.gravity.x, load.sum.x, load.parts.x,
                                         load.parts_square.x, load.neighbours);
-    const RoundingSize vy = of_velocity(s.vy[i], kick, problem.gravity.y, load.sum.y, load.parts.y,
+    const RoundingSize vy = of_velocity(s.vy[i], kick, model.gravity.y, load.sum.y, load.parts.y,
                                         load.parts_square.y, load.neighbours);
     RoundingSize x, y;
     x.add(s.x[i]);
@@ -154,15 +148,14 @@ void add_stage(const Problem& problem, const State& s, const Sample& sample, dou
   }
 }
 
-void measure_rounding(const Problem& problem, const State& s, const Sample& sample,
-                      Inspection& here) {
+void measure_rounding(const Model& model, const State& s, const Sample& sample, Inspection& here) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double rx = std::abs(s.x[i] - sample.centre.x), ry = std::abs(s.y[i] - sample.centre.y);
     here.angular.add(rx * s.vy[i], 2.0);
     here.angular.add(ry * s.vx[i], 2.0);
     here.energy.add(0.5 * (s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]), 3.0);
-    here.energy.add(problem.gravity.x * s.x[i]);
-    here.energy.add(problem.gravity.y * s.y[i]);
+    here.energy.add(model.gravity.x * s.x[i]);
+    here.energy.add(model.gravity.y * s.y[i]);
   }
   // The centre of mass is rounded, too, and so are the sums and differences of them.
   here.angular.add(sample.centre.x * sample.momentum.y, 2.0);
@@ -171,11 +164,11 @@ void measure_rounding(const Problem& problem, const State& s, const Sample& samp
   here.energy.add(std::abs(sample.kinetic) + std::abs(sample.bond) + std::abs(sample.gravity), 3.0);
 }
 
-void measure_reach(const Problem& problem, const State& s, Inspection& here) {
+void measure_reach(const Model& model, const State& s, Inspection& here) {
   here.nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < s.size(); ++i) {
     here.fastest = std::max(here.fastest, s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]);
-    for (const Wall& wall : problem.walls) {
+    for (const Wall& wall : model.walls) {
       const double distance = wall_distance(wall, s.x[i], s.y[i]);
       const double size = std::abs(s.x[i]) + std::abs(s.y[i]) + std::abs(wall.offset);
       here.nearest = std::min(here.nearest, distance);
@@ -208,8 +201,8 @@ ModifiedEnergy modified_energy(const Method& method) {
   return z;
 }
 
-Inspection inspect(const Problem& problem, const State& state, const Sample& sample) {
-  const BondSums sums = load_bonds(problem, state);
+Inspection inspect(const Model& model, const State& state, const Sample& sample) {
+  const BondSums sums = load_bonds(model, state);
   Inspection here;
   double power = 0.0;  // of bonds and gravity, -v.grad V
   double force = 0.0;  // |grad V|^2
@@ -220,19 +213,19 @@ Inspection inspect(const Problem& problem, const State& state, const Sample& sam
     force += load.net.x * load.net.x + load.net.y * load.net.y;
     row = std::max(row, load.stiffness);
   }
-  const ModifiedEnergy z = modified_energy(*problem.method);
-  const double dt = problem.step;
+  const ModifiedEnergy z = modified_energy(*model.method);
+  const double dt = model.step;
   here.swing = dt * (dt * (z.stiffness * sums.stiffness + z.force * force) - z.first * power);
   const auto n = static_cast<double>(state.size());
   here.internal = sample.kinetic -
                   0.5 * (square(sample.momentum.x) + square(sample.momentum.y)) / n + sample.bond +
                   sums.elastic;
   here.frequency = std::sqrt(2.0 * row);
-  measure_reach(problem, state, here);
-  measure_rounding(problem, state, sample, here);
+  measure_reach(model, state, here);
+  measure_rounding(model, state, sample, here);
   here.energy.add(sums.energy);
-  for (const Stage& stage : problem.method->stages) {
-    add_stage(problem, state, sample, std::abs(stage.kick) * dt, sums.loads, here.step);
+  for (const Stage& stage : model.method->stages) {
+    add_stage(model, state, sample, std::abs(stage.kick) * dt, sums.loads, here.step);
   }
   return here;
 }

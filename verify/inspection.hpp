@@ -53,6 +53,6 @@ struct Inspection {
 };
 
 /// `sample` as measure() gave it of this state.
-Inspection inspect(const Problem& problem, const State& state, const Sample& sample);
+Inspection inspect(const Model& model, const State& state, const Sample& sample);
 
 }  // namespace bounce

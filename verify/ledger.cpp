@@ -25,8 +25,8 @@ bool LedgerReport::closes() const {
   return std::all_of(lines.begin(), lines.end(), [](const LedgerLine& l) { return l.closes(); });
 }
 
-Ledger::Ledger(Problem problem, bool full)
-    : problem_(std::move(problem)),
+Ledger::Ledger(const Model& model, bool full)
+    : model_(model),
       full_(full),
       free_energy_{.name = "energy without contact", .unit = "erg"},
       behind_{.name = "walls", .unit = "cm"} {}
@@ -37,7 +37,7 @@ void Ledger::add(std::int64_t step, const State& state, const Sample& sample,
     throw std::invalid_argument("samples of a ledger are not in the order of steps");
   }
   if (full_ && books == nullptr) throw std::invalid_argument("the full ledger needs books");
-  Look now{step, sample, inspect(problem_, state, sample), full_ ? *books : WallBooks{}};
+  Look now{step, sample, inspect(model_, state, sample), full_ ? *books : WallBooks{}};
   greatest_swing_ = std::max(greatest_swing_, std::abs(now.inspection.swing));
   interval_ = {};
   if (!start_) {
@@ -58,10 +58,10 @@ double Ledger::steps_to(const Look& now) const {
 
 // Change of momentum that gravity does not explain.
 Vec2 Ledger::beyond_gravity(const Look& now) const {
-  const auto n = static_cast<double>(problem_.initial.size());
-  const double mass_time = n * steps_to(now) * problem_.step;
+  const auto n = static_cast<double>(model_.bonds.particles());
+  const double mass_time = n * steps_to(now) * model_.step;
   const Vec2 &a = before_->sample.momentum, &b = now.sample.momentum;
-  return {b.x - a.x - mass_time * problem_.gravity.x, b.y - a.y - mass_time * problem_.gravity.y};
+  return {b.x - a.x - mass_time * model_.gravity.x, b.y - a.y - mass_time * model_.gravity.y};
 }
 
 // Of an interval's steps, of gravity's kick (multiplied out once, so with one sign), of the two
@@ -98,8 +98,8 @@ void Ledger::measure_walls(const Look& now) {
     }
     interval_.walls = b.energy_given() - a.energy_given();
   } else {
-    const double time = steps_to(now) * problem_.step;
-    const double pull = std::hypot(problem_.gravity.x, problem_.gravity.y);
+    const double time = steps_to(now) * model_.step;
+    const double pull = std::hypot(model_.gravity.x, model_.gravity.y);
     // Twice as fast as any particle was at either end.
     const double reach =
         2.0 * std::max(before_->inspection.fastest, now.inspection.fastest) * time +
@@ -190,7 +190,7 @@ void Ledger::check_stretch(const Look& now) {
   const Inspection& here = now.inspection;
   stretch_.steps.add(over_steps(before_->inspection.step.energy, here.step.energy, steps_to(now)));
   const auto left_out = [this](const Inspection& end) {
-    const double angle = end.frequency * problem_.step;
+    const double angle = end.frequency * model_.step;
     return angle * angle * angle * std::abs(end.internal);
   };
   stretch_.left_out = std::max({stretch_.left_out, left_out(before_->inspection), left_out(here)});
@@ -212,8 +212,8 @@ void Ledger::check_stretch(const Look& now) {
 // With one wall nothing may stand behind it after a step. Between several, a particle that the last
 // one mirrored may for a step stand behind another.
 void Ledger::check_walls(const Look& now) {
-  const bool corner = problem_.walls.size() > 1;
-  const double allowed = corner ? 2.0 * now.inspection.fastest * problem_.step : 0.0;
+  const bool corner = model_.walls.size() > 1;
+  const double allowed = corner ? 2.0 * now.inspection.fastest * model_.step : 0.0;
   const double depth = now.inspection.behind;
   if (behind_.fault_step < 0 && depth >= behind_.residual) {
     behind_.residual = depth;

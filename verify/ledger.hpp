@@ -80,7 +80,7 @@ struct LedgerInterval {
 class Ledger {
  public:
   /// `full`: add() will be given books.
-  explicit Ledger(Problem problem, bool full = false);
+  explicit Ledger(const Model& model, bool full = false);
 
   /// The next sample; the first is the start. `sample` is measure()'s of `state`; `books` those of
   /// the stepper at this step. Throws std::invalid_argument for a step that is not after the last
@@ -126,7 +126,7 @@ class Ledger {
   [[nodiscard]] RoundingSize rounding_y(const Look& now) const;
   [[nodiscard]] double steps_to(const Look& now) const;
 
-  Problem problem_;
+  Model model_;
   bool full_;
   std::optional<Look> start_, before_;
   LedgerInterval interval_;

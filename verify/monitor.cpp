@@ -35,7 +35,6 @@ double squared_distance(const State& s, std::size_t i, std::size_t j) {
 }
 
 void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
-  const BondList& bonds = problem.bonds;
   const PotentialOf potential_of(problem.law);
   CompensatedSum energy;
   double smallest = std::numeric_limits<double>::infinity();  // (R/R0)^2
@@ -43,12 +42,9 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   for (const BondClass& bond : problem.classes) {
     per_rest_squared.push_back(1.0 / (bond.rest * bond.rest));
   }
-  for (std::size_t i = 0; i < bonds.particles(); ++i) {
-    const auto end = static_cast<std::size_t>(bonds.start[i + 1]);
-    for (auto e = static_cast<std::size_t>(bonds.start[i]); e < end; ++e) {
-      const auto j = static_cast<std::size_t>(bonds.neighbour[e]);
-      if (j < i) continue;  // each bond once
-      const std::size_t c = bonds.bond_class[e];
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+      if (j < i) return;  // each bond once
       const double r2 = squared_distance(state, i, j);
       energy.add(potential_of(problem.classes[c], r2));
       const double ratio = r2 * per_rest_squared[c];
@@ -57,7 +53,7 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
         sample.ratio_first = static_cast<std::int64_t>(i);
         sample.ratio_second = static_cast<std::int64_t>(j);
       }
-    }
+    });
   }
   sample.bond = energy.value();
   sample.smallest_ratio = std::sqrt(smallest);
@@ -102,10 +98,14 @@ void measure_surroundings(const Problem& problem, const State& s, Sample& sample
 
 // Bond energy with every bond at rest: the zero of elastic energy.
 double rest_bond_energy(const Problem& problem) {
+  std::vector<double> entries(problem.classes.size());  // by class; every bond has two
+  for (std::size_t i = 0; i < problem.bonds.particles(); ++i) {
+    problem.bonds.visit_row(i, [&](std::size_t, std::size_t c) { entries[c] += 1.0; });
+  }
   CompensatedSum energy;
-  for (const std::uint8_t c : problem.bonds.bond_class) {  // every bond has two entries
+  for (std::size_t c = 0; c < entries.size(); ++c) {
     const BondClass& bond = problem.classes[c];
-    energy.add(0.5 * potential(problem.law, bond, bond.rest * bond.rest));
+    energy.add(0.5 * entries[c] * potential(problem.law, bond, bond.rest * bond.rest));
   }
   return energy.value();
 }
@@ -124,15 +124,12 @@ struct Tightest {
 // The particle's bond with the smallest R/R0, or its first one whose R/R0 is not a number.
 Tightest tightest_bond(const Problem& problem, const State& state, std::size_t i) {
   Tightest tightest;
-  const auto end = static_cast<std::size_t>(problem.bonds.start[i + 1]);
-  for (auto e = static_cast<std::size_t>(problem.bonds.start[i]); e < end; ++e) {
-    const std::int64_t j = problem.bonds.neighbour[e];
-    const double rest = problem.classes[problem.bonds.bond_class[e]].rest;
-    const double distance = std::sqrt(squared_distance(state, i, static_cast<std::size_t>(j)));
-    if (tightest.partner < 0 || is_smaller(distance / rest, tightest.ratio)) {
-      tightest = {j, distance / rest};
+  problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+    const double ratio = std::sqrt(squared_distance(state, i, j)) / problem.classes[c].rest;
+    if (tightest.partner < 0 || is_smaller(ratio, tightest.ratio)) {
+      tightest = {static_cast<std::int64_t>(j), ratio};
     }
-  }
+  });
   return tightest;
 }
 
@@ -147,17 +144,16 @@ Strained most_strained(const Problem& problem, const State& state) {
   Strained strained;
   double most = 0.0;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    for (std::int64_t e = problem.bonds.start[i]; e < problem.bonds.start[i + 1]; ++e) {
-      const auto entry = static_cast<std::size_t>(e);
-      const std::int64_t j = problem.bonds.neighbour[entry];
-      const BondClass& bond = problem.classes[problem.bonds.bond_class[entry]];
-      const double r2 = squared_distance(state, i, static_cast<std::size_t>(j));
+    problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+      const BondClass& bond = problem.classes[c];
+      const double r2 = squared_distance(state, i, j);
       const double energy =
           potential(problem.law, bond, r2) - potential(problem.law, bond, bond.rest * bond.rest);
-      if (strained.first >= 0 && !(energy > most)) continue;
+      if (strained.first >= 0 && !(energy > most)) return;
       most = energy;
-      strained = {static_cast<std::int64_t>(i), j, std::sqrt(r2) / bond.rest};
-    }
+      strained = {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j),
+                  std::sqrt(r2) / bond.rest};
+    });
   }
   return strained;
 }

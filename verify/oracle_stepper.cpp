@@ -54,6 +54,7 @@ std::vector<KernelEntry> kernels_with_oracle(const Scene& scene) {
   all.push_back({.name = "oracle",
                  .description = "the paper's listing, scalar: the reference, slow",
                  .automatic = false,
+                 .memory = {.a_particle = 32.0, .an_entry = 0.0},
                  .prepare = [scene](const Problem&, const PlanRequest& request,
                                     Plan& plan) { return prepare(scene, request, plan); },
                  .make = [scene](const Problem& problem, const Plan&) -> std::unique_ptr<Stepper> {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/model/bonds.hpp"
+
 namespace bounce {
 namespace {
 
@@ -53,6 +55,11 @@ State make_ball(const BallSpec& spec) {
     }
   }
   return state;
+}
+
+BallSize ball_size(const BallSpec& spec) {
+  const auto rings = static_cast<int>(spec.radii.size());
+  return {static_cast<std::size_t>(rings * spec.per_ring), ring_entries(rings, spec.per_ring), 0};
 }
 
 std::vector<double> rest_lengths_squared(const BallSpec& spec, Rest rest) {

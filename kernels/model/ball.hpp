@@ -12,6 +12,14 @@ namespace bounce {
 /// truncated multiples for 120 a ring, and every number passes through FORMAT (F12.4).
 State make_ball(const BallSpec& spec);
 
+/// How large a valid spec's ball is.
+struct BallSize {
+  std::size_t particles = 0;
+  std::size_t entries = 0;     ///< of all rows of neighbours: two a bond
+  std::size_t list_bytes = 0;  ///< of its BondList, where it needs one
+};
+BallSize ball_size(const BallSpec& spec);
+
 /// Squared rest lengths by bond class, cm^2: ring 1, rings 1-2, ring 2, rings 2-3, ... in the order
 /// of ring_bonds. Rest::listing needs the paper's ball (validate sees to it).
 std::vector<double> rest_lengths_squared(const BallSpec& spec, Rest rest);

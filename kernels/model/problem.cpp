@@ -83,15 +83,15 @@ Problem make_problem(const Scene& scene, const std::optional<State>& initial) {
     wall.normal = {wall.normal.x / length, wall.normal.y / length};
   }
   problem.method = find_method(scene.time.method);
-  const auto particles = scene.ball.radii.size() * static_cast<std::size_t>(scene.ball.per_ring);
+  const std::size_t particles = ball_size(scene.ball).particles;
   if (initial && initial->size() != particles) {
     throw SceneError("initial state", std::to_string(initial->size()) + " particles",
                      std::to_string(particles) + " particles, as the scene's ball has");
   }
   problem.initial = initial ? *initial : make_ball(scene.ball);
   check_start(scene, problem);
-  problem.bonds = ring_bonds(static_cast<int>(scene.ball.radii.size()), scene.ball.per_ring);
-  check_bonds(problem.bonds);
+  problem.bonds =
+      Neighbours::of_rings(static_cast<int>(scene.ball.radii.size()), scene.ball.per_ring);
   return problem;
 }
 

@@ -47,9 +47,6 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
-// From here on a second thread saves more than the meeting at the end of each stage costs.
-constexpr std::size_t particles_worth_a_team = 20000;
-
 std::string prepare_csr(const Problem& problem, const PlanRequest& request, Plan& plan) {
   plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   const bool large = problem.initial.size() >= particles_worth_a_team;
@@ -69,6 +66,7 @@ KernelEntry csr_entry() {
   return {.name = "csr",
           .description = "any neighbour list, any law, any walls; threads over particles",
           .automatic = true,
+          .memory = sliced_memory,
           .prepare = prepare_csr,
           .make = make};
 }

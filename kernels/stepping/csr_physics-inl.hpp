@@ -38,7 +38,7 @@ class FastPhysics {
  public:
   using D = Tag;
 
-  explicit FastPhysics(const Problem& problem) : law_(problem.law), walls_(problem.walls) {}
+  explicit FastPhysics(const Model& model) : law_(model.law), walls_(model.walls) {}
   // Constants come multiplied by the kick.
   static constexpr bool scaled() { return true; }
 

@@ -162,10 +162,7 @@ void check_same_kind(const Problem& problem, const Problem& first, std::size_t i
   demand(problem.law.p == first.law.p && problem.law.q == first.law.q, "exponents (p, q)");
   demand(problem.method == first.method, "stages (time.method)");
   demand(problem.initial.size() == first.initial.size(), "numbers of particles");
-  demand(problem.bonds.start == first.bonds.start &&
-             problem.bonds.neighbour == first.bonds.neighbour &&
-             problem.bonds.bond_class == first.bonds.bond_class,
-         "bonds");
+  demand(problem.bonds == first.bonds, "bonds");
 }
 
 BatchForm form_of(std::span<const Problem> problems, VectorTarget vector) {

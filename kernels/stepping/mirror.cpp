@@ -70,6 +70,7 @@ KernelEntry mirror_entry() {
   return {.name = "mirror",
           .description = "half of a left-right symmetric ball of rings",
           .automatic = true,
+          .memory = {.a_particle = 32.0, .an_entry = 0.0},
           .prepare = prepare_mirror,
           .make = make};
 }

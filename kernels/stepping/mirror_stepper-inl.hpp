@@ -85,7 +85,7 @@ class MirrorStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    const Walls walls(problem().walls);
+    const Walls walls(model().walls);
     for (std::int64_t s = 0; s < steps; ++s) {
       for (const Constants& c : constants) pass(c, walls);
     }

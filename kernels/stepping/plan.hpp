@@ -2,6 +2,7 @@
 // and the instantiation that leaves out what the scene does not need.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -45,15 +46,26 @@ class PlanError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// What a stepper takes beside the problem, bytes, for each particle and each entry of their rows.
+struct StepperMemory {
+  double a_particle;
+  double an_entry;
+};
+
 /// One kernel, as the registry knows it.
 struct KernelEntry {
   std::string name;
   std::string description;
   bool automatic;  ///< may `auto` pick it
+  StepperMemory memory;
   /// Fills lanes, threads, law, walls and left_out of the plan, or returns why it cannot run this.
   std::function<std::string(const Problem&, const PlanRequest&, Plan&)> prepare;
   std::function<std::unique_ptr<Stepper>(const Problem&, const Plan&)> make;
 };
+
+/// From here on a second thread saves more than meeting it costs, whatever the kernel and however
+/// far apart the cores are.
+inline constexpr std::size_t particles_worth_a_team = 20000;
 
 /// The kernels of this folder, fastest first. Adding one adds a line to kernel_registry.cpp.
 std::span<const KernelEntry> kernels();

@@ -50,7 +50,8 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
   if (plan.lanes == 0) {
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
   }
-  plan.threads = request.threads == 0 ? 1 : request.threads;
+  const bool large = problem.initial.size() >= particles_worth_a_team;
+  plan.threads = request.threads != 0 ? request.threads : large ? omp_get_max_threads() : 1;
   const std::int64_t columns = shape.per_ring / plan.lanes;
   if (plan.threads > 1 && plan.threads > columns / 2) {
     return std::to_string(plan.threads) + " threads are too many for its " +
@@ -78,6 +79,7 @@ KernelEntry ring_entry() {
   return {.name = "ring",
           .description = "rings with constant offsets: each bond once, no index",
           .automatic = true,
+          .memory = {.a_particle = 32.0, .an_entry = 0.0},
           .prepare = prepare_ring,
           .make = make};
 }

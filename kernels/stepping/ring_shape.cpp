@@ -48,9 +48,26 @@ std::optional<RingShape> match(const BondList& bonds, int rings) {
   return shape;
 }
 
+// As ring_row numbers classes.
+RingShape shape_of(const Neighbours::Rings& known) {
+  RingShape shape{known.rings, known.per_ring, {}, {}, {}};
+  for (int r = 0; r < known.rings; ++r) {
+    shape.along.push_back(2 * r);
+    if (r + 1 == known.rings) break;
+    shape.same.push_back(2 * r + 1);
+    shape.diagonal.push_back(2 * r + 1);
+  }
+  return shape;
+}
+
 }  // namespace
 
-std::optional<RingShape> find_rings(const BondList& bonds) {
+std::optional<RingShape> find_rings(const Neighbours& neighbours) {
+  if (const auto& known = neighbours.rings()) {
+    if (known->rings > most_rings) return std::nullopt;
+    return shape_of(*known);
+  }
+  const BondList& bonds = neighbours.list();
   const auto particles = static_cast<std::int64_t>(bonds.particles());
   for (int rings = 1; rings <= most_rings; ++rings) {
     if (particles % rings != 0 || particles / rings < 3) continue;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/model/bonds.hpp"
+#include "kernels/model/neighbours.hpp"
 
 namespace bounce {
 
@@ -23,7 +23,7 @@ struct RingShape {
 };
 
 /// The shape of the list, whatever the order of its rows' entries; nothing if it is no such list of
-/// 1 to most_rings rings.
-std::optional<RingShape> find_rings(const BondList& bonds);
+/// 1 to most_rings rings. Of a Neighbours::of_rings the shape is known and nothing is read.
+std::optional<RingShape> find_rings(const Neighbours& bonds);
 
 }  // namespace bounce

@@ -42,11 +42,14 @@ class RingStepper final : public StagedStepper {
   static constexpr size_t L = Columns::L;
 
  public:
-  RingStepper(const Problem& start, const RingShape& shape, int threads)
+  /// `stages`: at most so many are taken while a tile is in cache. Fewer than most_ghosts are for
+  /// measuring what that saves: 1 is a plain sweep through memory a stage.
+  RingStepper(const Problem& start, const RingShape& shape, int threads,
+              size_t stages = most_ghosts)
       : StagedStepper(start),
         physics_(shape, start.law),
         columns_(static_cast<size_t>(shape.per_ring) / L),
-        walk_(std::make_unique<Walk>(choose_walk(columns_, static_cast<size_t>(threads)))) {
+        walk_(std::make_unique<Walk>(choose_walk(columns_, static_cast<size_t>(threads), stages))) {
     RingStepper::write(start.initial);
   }
 
@@ -56,7 +59,7 @@ class RingStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    const Walls walls(problem().walls);
+    const Walls walls(model().walls);
     std::visit([&](auto& walk) { walk.run(physics_, constants, walls, steps); }, *walk_);
   }
 
@@ -76,7 +79,8 @@ class RingStepper final : public StagedStepper {
   // From so many columns on a tile steps several stages alone.
   static constexpr size_t columns_alone = 128;
 
-  static Walk choose_walk(size_t columns, size_t threads) {
+  static Walk choose_walk(size_t columns, size_t threads, size_t stages) {
+    if (stages < most_ghosts) return Walk(std::in_place_type<Tiles>, columns, threads, stages);
     if (columns / threads < columns_alone) {
       if (threads > 1) return Walk(std::in_place_type<Team>, columns, threads);
     }

@@ -129,9 +129,10 @@ class RingTiles {
   static constexpr size_t block = Columns::block;
 
  public:
-  RingTiles(size_t columns, size_t tiles) {
+  /// A visit takes `most_stages` stages, fewer where tiles are small.
+  RingTiles(size_t columns, size_t tiles, size_t most_stages = most_ghosts) {
     for (size_t t = 0; t <= tiles; ++t) begins_.push_back(columns * t / tiles);
-    const size_t ghosts = std::clamp<size_t>(columns / tiles / ghost_part, 1, most_ghosts);
+    const size_t ghosts = std::clamp<size_t>(columns / tiles / ghost_part, 1, most_stages);
     for (size_t t = 0; t < tiles; ++t) tiles_.emplace_back(begins_[t + 1] - begins_[t], ghosts);
   }
 

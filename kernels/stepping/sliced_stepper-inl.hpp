@@ -83,7 +83,7 @@ class SlicedStepper final : public StagedStepper {
  public:
   SlicedStepper(const Problem& start, int threads)
       : StagedStepper(start),
-        physics_(problem()),
+        physics_(model()),
         bonds_(slice_bonds(start.bonds, static_cast<int>(L))),
         store_(start.initial.size()),
         threads_(threads) {
@@ -124,8 +124,8 @@ class SlicedStepper final : public StagedStepper {
  private:
   // strict multiplies by dt after it has summed, as the listing does.
   [[nodiscard]] StageConstants unscaled(StageConstants stage) const {
-    stage.kick = problem().classes;
-    stage.gravity = problem().gravity;
+    stage.kick = model().classes;
+    stage.gravity = model().gravity;
     return stage;
   }
 

@@ -12,23 +12,40 @@ struct Position {
   std::vector<int> classes;
 };
 
-std::int64_t degree(const BondList& bonds, std::size_t i) {
-  return i < bonds.particles() ? bonds.start[i + 1] - bonds.start[i] : 0;
+// The rows of a slice's particles; behind the last particle they are empty.
+using Rows = std::vector<std::vector<BondEntry>>;
+
+void read_rows(const Neighbours& bonds, std::size_t first, Rows& rows) {
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    rows[l].clear();
+    if (first + l >= bonds.particles()) continue;
+    bonds.visit_row(first + l, [&row = rows[l]](std::size_t j, std::size_t bond_class) {
+      row.push_back({static_cast<std::int64_t>(j), static_cast<int>(bond_class)});
+    });
+  }
 }
 
-Position gather_position(const BondList& bonds, std::size_t first, int lanes, std::int64_t k) {
-  Position position;
-  for (std::size_t i = first; i < first + static_cast<std::size_t>(lanes); ++i) {
-    if (k < degree(bonds, i)) {
-      const auto e = static_cast<std::size_t>(bonds.start[i] + k);
-      position.neighbours.push_back(bonds.neighbour[e]);
-      position.classes.push_back(bonds.bond_class[e]);
-    } else {
-      position.neighbours.push_back(static_cast<std::int64_t>(i));
-      position.classes.push_back(no_bond);
-    }
+void gather_position(const Rows& rows, std::size_t first, std::size_t k, Position& position) {
+  position.neighbours.clear();
+  position.classes.clear();
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    const auto self = static_cast<std::int64_t>(first + l);
+    const BondEntry entry = k < rows[l].size() ? rows[l][k] : BondEntry{self, no_bond};
+    position.neighbours.push_back(entry.neighbour);
+    position.classes.push_back(entry.bond_class);
   }
-  return position;
+}
+
+std::size_t count_entries(const Neighbours& bonds, std::size_t width) {
+  std::size_t entries = 0;
+  std::size_t longest = 0;  // of this slice
+  for (std::size_t i = 0; i < bonds.particles(); ++i) {
+    longest = std::max(longest, bonds.row_length(i));
+    if ((i + 1) % width != 0 && i + 1 < bonds.particles()) continue;
+    entries += longest;
+    longest = 0;
+  }
+  return entries;
 }
 
 bool consecutive(const std::vector<std::int64_t>& values) {
@@ -40,20 +57,25 @@ bool consecutive(const std::vector<std::int64_t>& values) {
 
 }  // namespace
 
-SlicedBonds slice_bonds(const BondList& bonds, int lanes) {
+SlicedBonds slice_bonds(const Neighbours& bonds, int lanes) {
   SlicedBonds sliced;
   sliced.lanes = lanes;
   std::map<std::vector<int>, std::int32_t> known;
   const auto width = static_cast<std::size_t>(lanes);
+  Rows rows(width);
+  Position position;
+  sliced.slices.reserve((bonds.particles() + width - 1) / width);
+  sliced.entries.reserve(count_entries(bonds, width));
   for (std::size_t first = 0; first < bonds.particles(); first += width) {
     Slice slice{.begin = static_cast<std::int64_t>(sliced.entries.size()), .full = INT32_MAX};
-    for (std::size_t i = first; i < first + width; ++i) {
-      const auto neighbours = static_cast<std::int32_t>(degree(bonds, i));
+    read_rows(bonds, first, rows);
+    for (const auto& row : rows) {
+      const auto neighbours = static_cast<std::int32_t>(row.size());
       slice.full = std::min(slice.full, neighbours);
       slice.all = std::max(slice.all, neighbours);
     }
-    for (std::int64_t k = 0; k < slice.all; ++k) {
-      Position position = gather_position(bonds, first, lanes, k);
+    for (std::int32_t k = 0; k < slice.all; ++k) {
+      gather_position(rows, first, static_cast<std::size_t>(k), position);
       const auto next = static_cast<std::int32_t>(known.size());
       const auto [row, is_new] = known.try_emplace(position.classes, next);
       if (is_new) {

@@ -14,7 +14,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/model/bonds.hpp"
+#include "kernels/model/neighbours.hpp"
+#include "kernels/stepping/plan.hpp"
 
 namespace bounce {
 
@@ -33,6 +34,11 @@ struct Slice {
 
 inline constexpr int no_bond = -1;
 
+/// Of a stepper of slices, at least four lanes wide: positions twice and velocities, a Slice for
+/// four particles, a SliceEntry for four entries. (Scattered neighbours take 8 bytes an entry more;
+/// in rings and lattices they are few.)
+inline constexpr StepperMemory sliced_memory{.a_particle = 48.0 + 16.0 / 4, .an_entry = 8.0 / 4};
+
 struct SlicedBonds {
   int lanes = 0;
   std::vector<Slice> slices;
@@ -45,6 +51,7 @@ struct SlicedBonds {
   }
 };
 
-SlicedBonds slice_bonds(const BondList& bonds, int lanes);
+/// Reads row by row: no list is made of rings.
+SlicedBonds slice_bonds(const Neighbours& bonds, int lanes);
 
 }  // namespace bounce

@@ -24,11 +24,12 @@ struct StepStages {
   std::vector<StageConstants>
       merged;  ///< of one that takes over the pending kick; empty: none does
 };
-StepStages step_stages(const Problem& problem);
+StepStages step_stages(const Model& model);
 
+/// Holds the problem's model, not its start: the particles stand once, in the kernel's layout.
 class StagedStepper : public Stepper {
  public:
-  explicit StagedStepper(Problem problem);
+  explicit StagedStepper(const Problem& problem);
 
   void advance(std::int64_t steps) final;
   [[nodiscard]] State state() const final;
@@ -41,16 +42,17 @@ class StagedStepper : public Stepper {
   virtual void run(std::span<const StageConstants> stages, std::int64_t steps) = 0;
   virtual void read(State& state) const = 0;
   virtual void write(const State& state) = 0;
-  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] const Model& model() const { return model_; }
 
  private:
-  Problem problem_;
+  Model model_;
   StepStages stages_;
+  std::size_t particles_;
   bool kick_pending_ = false;
   std::int64_t step_ = 0;
 };
 
 /// v += kick dt a(x), scalar, in the order of the neighbour list.
-void kick_only(const Problem& problem, double kick, State& state);
+void kick_only(const Model& model, double kick, State& state);
 
 }  // namespace bounce

@@ -27,7 +27,7 @@ class StrictPhysics {
  public:
   using D = hn::ScalableTag<double>;
 
-  explicit StrictPhysics(const Problem& problem) : walls_(problem.walls), step_(problem.step) {}
+  explicit StrictPhysics(const Model& model) : walls_(model.walls), step_(model.step) {}
   // The listing multiplies by the step after it has summed.
   static constexpr bool scaled() { return false; }
 
@@ -153,6 +153,7 @@ KernelEntry strict_entry() {
   return {.name = "strict",
           .description = "the listing's operations in the listing's order: the oracle's bits",
           .automatic = false,
+          .memory = sliced_memory,
           .prepare = prepare_strict,
           .make = make};
 }

@@ -68,6 +68,10 @@ class DriverRunTest : public testing::Test {
         signal(SIGXFSZ, SIG_IGN);  // so that writing fails, as on a full disk
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(99);
       }
+      if (memory_ > 0) {
+        const rlimit limit{memory_, memory_};
+        if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(99);
+      }
       dup2(open("stdout", flags, 0600), STDOUT_FILENO);
       dup2(open("stderr", flags, 0600), STDERR_FILENO);
       execv(BOUNCE_PROGRAM, arguments.data());
@@ -101,6 +105,7 @@ class DriverRunTest : public testing::Test {
 
   fs::path folder_;
   rlim_t largest_file_ = 0;  // bytes the program may write to a file; 0: no limit
+  rlim_t memory_ = 0;        // bytes it may take; 0: no limit
 };
 
 TEST_F(DriverRunTest, ARunWritesItsDirectory) {
@@ -181,6 +186,17 @@ TEST_F(DriverRunTest, AnUnstableRunWithBooksEndsAsWithout) {
   ASSERT_EQ(run(plain), 3) << err();
   ASSERT_EQ(run(booked), 3) << err();
   EXPECT_EQ(contents(folder_ / "r/final.csv"), contents(folder_ / "s/final.csv"));
+}
+
+TEST_F(DriverRunTest, ABallThatMemoryCannotHoldIsRefusedBeforeItIsBuilt) {
+  const Words words{"run",   "large-ball",        "--steps", "1", "--set", "ball.per_ring=3000000",
+                    "--set", "ball.rounding=none"};
+  memory_ = rlim_t{1} << 30;
+  ASSERT_EQ(run(words), 2) << err();
+  EXPECT_NE(err().find("--set: ball.per_ring = 3000000: allowed is a ball of at most "),
+            std::string::npos)
+      << err();
+  EXPECT_TRUE(names().empty());
 }
 
 TEST_F(DriverRunTest, BadInputExitsWith2AndLeavesNothing) {

@@ -5,6 +5,16 @@ foreach(name driver_scene_file_test driver_schedule_test)
   gtest_discover_tests(${name} PROPERTIES LABELS driver)
 endforeach()
 
+add_executable(driver_memory_test ${CMAKE_CURRENT_LIST_DIR}/driver_memory_test.cpp)
+target_compile_definitions(driver_memory_test PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")
+target_link_libraries(driver_memory_test PRIVATE bounce_driver GTest::gtest_main)
+add_dependencies(driver_memory_test bounce)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize") # they keep memory of their own
+  message(STATUS "driver_memory_test is built but not run under a sanitizer")
+else()
+  gtest_discover_tests(driver_memory_test PROPERTIES LABELS driver TIMEOUT 120)
+endif()
+
 add_executable(driver_run_test ${CMAKE_CURRENT_LIST_DIR}/driver_run_test.cpp)
 target_compile_definitions(driver_run_test PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")
 target_link_libraries(driver_run_test PRIVATE bounce_options GTest::gtest_main)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kernels/stepping/plan.hpp"
 #include "verify/equivalence.hpp"
@@ -58,22 +59,25 @@ KernelUnderTest kernel_with(const std::string& name, Corrupt corrupt) {
 void leave(Problem&) {}
 
 void swap_bond_class(Problem& problem) {
-  for (std::uint8_t& c : problem.bonds.bond_class) {
+  BondList bonds = problem.bonds;
+  for (std::uint16_t& c : bonds.bond_class) {
     if (c == 1) {
       c = 3;
     } else if (c == 3) {
       c = 1;
     }
   }
+  problem.bonds = std::move(bonds);
 }
 
 // One entry of particle 57 taken out of its row (one direction of one bond).
 void drop_bond(Problem& problem) {
   constexpr std::size_t particle = 56;
-  BondList& bonds = problem.bonds;
+  BondList bonds = problem.bonds;
   bonds.neighbour.erase(bonds.neighbour.begin() + bonds.start[particle]);
   bonds.bond_class.erase(bonds.bond_class.begin() + bonds.start[particle]);
   for (std::size_t i = particle + 1; i < bonds.start.size(); ++i) --bonds.start[i];
+  problem.bonds = std::move(bonds);
 }
 
 void flip_sign(Problem& problem) {
@@ -82,13 +86,14 @@ void flip_sign(Problem& problem) {
 }
 
 void turn_sums_round(Problem& problem) {
-  BondList& bonds = problem.bonds;
+  BondList bonds = problem.bonds;
   for (std::size_t i = 0; i < bonds.particles(); ++i) {
     std::reverse(bonds.neighbour.begin() + bonds.start[i],
                  bonds.neighbour.begin() + bonds.start[i + 1]);
     std::reverse(bonds.bond_class.begin() + bonds.start[i],
                  bonds.bond_class.begin() + bonds.start[i + 1]);
   }
+  problem.bonds = std::move(bonds);
 }
 
 void lose_the_wall(Problem& problem) { problem.walls.clear(); }

@@ -1,6 +1,7 @@
 // The kernels against plain scalar stepping, against each other's thread counts and restarts, and
 // the plan's choices and refusals.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -287,6 +288,19 @@ TEST(Ring, StepsAllTilesWithFewerThreadsThanAskedFor) {
   EXPECT_EQ(state_hash(three->state()), state_hash(one->state()));
 }
 
+TEST(Plan, GivesALargeBallAllThreads) {
+  Scene scene = touching_scene();
+  scene.law.rest = Rest::geometry;
+  scene.ball.rounding = Rounding::none;
+  for (const char* kernel : {"ring", "csr"}) {
+    scene.ball.per_ring = 120;
+    EXPECT_EQ(make_plan(make_problem(scene), forced(kernel, 0)).threads, 1);
+    scene.ball.per_ring = 7000;
+    EXPECT_EQ(make_plan(make_problem(scene), forced(kernel, 0)).threads, omp_get_max_threads());
+    EXPECT_EQ(make_plan(make_problem(scene), forced(kernel, 1)).threads, 1);
+  }
+}
+
 // Four walks over one ball: a loop (512 columns of vectors with 4 lanes), tiles by two to four
 // threads, a tile by one (1024 columns are more than a loop keeps).
 TEST(Ring, SameBitsWhicheverWayItIsWalked) {
@@ -397,6 +411,17 @@ TEST(RingShape, IsFoundWhateverTheOrderAndNotAssumed) {
   EXPECT_EQ(shape->along, (std::vector<int>{0, 2, 4}));
   EXPECT_EQ(shape->same, (std::vector<int>{1, 3}));
   EXPECT_EQ(shape->diagonal, (std::vector<int>{1, 3}));
+  for (const int rings : {1, 2, 3, 4}) {
+    const auto known = find_rings(Neighbours::of_rings(rings, 17));
+    const auto found = find_rings(ring_bonds(rings, 17));
+    ASSERT_TRUE(known && found);
+    EXPECT_EQ(known->rings, found->rings);
+    EXPECT_EQ(known->per_ring, found->per_ring);
+    EXPECT_EQ(known->along, found->along);
+    EXPECT_EQ(known->same, found->same);
+    EXPECT_EQ(known->diagonal, found->diagonal);
+  }
+  EXPECT_FALSE(find_rings(Neighbours::of_rings(5, 17)));
   BondList one_class_off = bonds;
   one_class_off.bond_class[700] ^= 1;
   EXPECT_FALSE(find_rings(one_class_off).has_value());

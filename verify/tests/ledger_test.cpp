@@ -289,10 +289,12 @@ std::unique_ptr<Stepper> csr(const Problem& problem) {
 // One direction of one bond with a constant of elasticity larger by `relative`.
 Problem with_uneven_bond(Problem problem, double relative) {
   constexpr std::size_t particle = 56;
-  const auto entry = static_cast<std::size_t>(problem.bonds.start[particle]);
-  BondClass uneven = problem.classes[problem.bonds.bond_class[entry]];
+  BondList bonds = problem.bonds;
+  const auto entry = static_cast<std::size_t>(bonds.start[particle]);
+  BondClass uneven = problem.classes[bonds.bond_class[entry]];
   uneven.attraction *= 1.0 + relative;
-  problem.bonds.bond_class[entry] = static_cast<std::uint8_t>(problem.classes.size());
+  bonds.bond_class[entry] = static_cast<std::uint16_t>(problem.classes.size());
+  problem.bonds = std::move(bonds);
   problem.classes.push_back(uneven);
   return problem;
 }

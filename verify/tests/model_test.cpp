@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "kernels/model/bonds.hpp"
+#include "kernels/model/neighbours.hpp"
 #include "kernels/model/pair_law.hpp"
 #include "kernels/model/problem.hpp"
 #include "verify/tests/paper_scenes.hpp"
@@ -73,6 +74,46 @@ TEST(Bonds, SymmetricForAnyRings) {
       const auto r = static_cast<std::size_t>(rings);
       EXPECT_EQ(bonds.bonds(), r * n + 2 * (r - 1) * n);
     }
+  }
+}
+
+// Rows that are computed are the rows of the list; the list is built once, for all copies.
+TEST(Neighbours, OfRingsAreTheListWithoutIt) {
+  for (const int rings : {1, 2, 3, 4, 7}) {
+    for (const std::int64_t per_ring : {3, 4, 120}) {
+      const Neighbours computed = Neighbours::of_rings(rings, per_ring);
+      const Neighbours listed = ring_bonds(rings, per_ring);
+      EXPECT_FALSE(listed.rings());
+      ASSERT_EQ(computed.particles(), listed.particles());
+      EXPECT_EQ(computed.entries(), listed.entries());
+      EXPECT_EQ(computed.bonds(), listed.bonds());
+      for (std::size_t i = 0; i < listed.particles(); ++i) {
+        EXPECT_EQ(computed.row_length(i), listed.row_length(i)) << i;
+        const BondList& list = listed;
+        auto e = static_cast<std::size_t>(list.start[i]);
+        computed.visit_row(i, [&](std::size_t neighbour, std::size_t bond_class) {
+          EXPECT_EQ(neighbour, static_cast<std::size_t>(list.neighbour[e])) << i;
+          EXPECT_EQ(bond_class, list.bond_class[e++]) << i;
+        });
+      }
+      EXPECT_EQ(computed, listed);
+      const Neighbours copy = computed;
+      EXPECT_EQ(&copy.list(), &computed.list());
+    }
+  }
+  EXPECT_FALSE(Neighbours::of_rings(3, 120) == Neighbours::of_rings(3, 121));
+  EXPECT_FALSE(Neighbours::of_rings(3, 120) == Neighbours(ring_bonds(3, 121)));
+  EXPECT_EQ(Neighbours().particles(), 0U);
+}
+
+TEST(Neighbours, AnyThreadMayAskForTheList) {
+  const Neighbours neighbours = Neighbours::of_rings(3, 5000);
+  std::vector<const BondList*> seen(4);
+#pragma omp parallel for num_threads(4)
+  for (std::size_t t = 0; t < 4; ++t) seen[t] = &neighbours.list();
+  for (const BondList* list : seen) {
+    EXPECT_EQ(list, seen.front());
+    EXPECT_EQ(list->particles(), 15000U);
   }
 }
 
@@ -235,11 +276,12 @@ TEST(Problem, GeometryIsTheDistanceOfTheExactBall) {
   scene.ball.per_ring = 50;
   scene.ball.centre.y = 20.0;
   const Problem p = make_problem(scene);
-  for (std::size_t i = 0; i < p.bonds.particles(); ++i) {
-    for (auto e = p.bonds.start[i]; e < p.bonds.start[i + 1]; ++e) {
-      const auto j = static_cast<std::size_t>(p.bonds.neighbour[static_cast<std::size_t>(e)]);
+  const BondList& bonds = p.bonds;
+  for (std::size_t i = 0; i < bonds.particles(); ++i) {
+    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
+      const auto j = static_cast<std::size_t>(bonds.neighbour[static_cast<std::size_t>(e)]);
       const double d = std::hypot(p.initial.x[i] - p.initial.x[j], p.initial.y[i] - p.initial.y[j]);
-      EXPECT_NEAR(d, p.classes[p.bonds.bond_class[static_cast<std::size_t>(e)]].rest, 1e-13);
+      EXPECT_NEAR(d, p.classes[bonds.bond_class[static_cast<std::size_t>(e)]].rest, 1e-13);
     }
   }
 }

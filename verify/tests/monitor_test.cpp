@@ -27,6 +27,7 @@ Reference reference(const Problem& p, const State& s) {
   Reference sums;
   long double cx = 0;
   long double cy = 0;
+  const BondList& bonds = p.bonds;
   for (std::size_t i = 0; i < s.size(); ++i) {
     cx += s.x[i] / 360.0L;
     cy += s.y[i] / 360.0L;
@@ -36,9 +37,9 @@ Reference reference(const Problem& p, const State& s) {
     sums.kinetic += (vx * vx + vy * vy) / 2;
     sums.gravity -= p.gravity.x * x + p.gravity.y * y;
     sums.spin += (x - cx) * vy - (y - cy) * vx;
-    for (auto e = p.bonds.start[i]; e < p.bonds.start[i + 1]; ++e) {
-      const auto j = static_cast<std::size_t>(p.bonds.neighbour[static_cast<std::size_t>(e)]);
-      const BondClass& bond = p.classes[p.bonds.bond_class[static_cast<std::size_t>(e)]];
+    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
+      const auto j = static_cast<std::size_t>(bonds.neighbour[static_cast<std::size_t>(e)]);
+      const BondClass& bond = p.classes[bonds.bond_class[static_cast<std::size_t>(e)]];
       const long double dx = x - s.x[j], dy = y - s.y[j];
       const long double u = 1 / (dx * dx + dy * dy);
       sums.bond += (-bond.attraction * u / 2 + bond.repulsion * u * u / 4) / 2;  // from both ends

@@ -98,15 +98,16 @@ TEST(Oracle, ConstantsAreTheProblems) {
 // the listing's operations.
 State one_step_along_rows(const Problem& problem) {
   const State& s = problem.initial;
+  const BondList& bonds = problem.bonds;
   State after = s;
   for (std::size_t i = 0; i < s.size(); ++i) {
     double ax = 0.0;
     double ay = 0.0;
-    const auto first = static_cast<std::size_t>(problem.bonds.start[i]);
-    const auto end = static_cast<std::size_t>(problem.bonds.start[i + 1]);
+    const auto first = static_cast<std::size_t>(bonds.start[i]);
+    const auto end = static_cast<std::size_t>(bonds.start[i + 1]);
     for (std::size_t e = first; e < end; ++e) {
-      const auto j = static_cast<std::size_t>(problem.bonds.neighbour[e]);
-      const BondClass& bond = problem.classes[problem.bonds.bond_class[e]];
+      const auto j = static_cast<std::size_t>(bonds.neighbour[e]);
+      const BondClass& bond = problem.classes[bonds.bond_class[e]];
       const double dx = s.x[i] - s.x[j];
       const double dy = s.y[i] - s.y[j];
       const double r = dx * dx + dy * dy;

@@ -121,11 +121,12 @@ double energy_change(const ExampleRun& run) {
 // Greatest R/R0 of any bond.
 double longest_bond(const Problem& problem, const State& s) {
   double longest = 0.0;
+  const BondList& bonds = problem.bonds;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    for (auto e = problem.bonds.start[i]; e < problem.bonds.start[i + 1]; ++e) {
+    for (auto e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
       const auto entry = static_cast<std::size_t>(e);
-      const auto j = static_cast<std::size_t>(problem.bonds.neighbour[entry]);
-      const double rest = problem.classes[problem.bonds.bond_class[entry]].rest;
+      const auto j = static_cast<std::size_t>(bonds.neighbour[entry]);
+      const double rest = problem.classes[bonds.bond_class[entry]].rest;
       const double ratio = std::hypot(s.x[i] - s.x[j], s.y[i] - s.y[j]) / rest;
       if (!(ratio <= longest)) longest = ratio;
       if (std::isnan(longest)) return longest;

@@ -105,6 +105,71 @@ class CompareFiles(unittest.TestCase):
             self.assertIn(complaint, complaints)
 
 
+class LargeBalls(unittest.TestCase):
+    """scripts/large_balls.py on made-up measurements."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def write(self, change=lambda run: None):
+        runs = []
+        for particles in (360, 10000200):
+            for threads in (1, 2):
+                for repetition in range(3):
+                    run = {"run_name": f"particles:{particles}/threads:{threads}/iterations:9/manual_time",
+                           "run_type": "iteration", "ns_per_particle_step": 2.0 + repetition,
+                           "x_papers_ball": 1.25, "sweep_ns_per_particle_step": 9.0, "sweep_x_papers_ball": 4.5,
+                           "memory_bytes_per_s": 8e9, "memory_ns_per_particle_step": 8.0, "build_s": 1.5}
+                    change(run)
+                    runs.append(run)
+        context = {"commit": "c0ffee", "date": "today", "cpu": "a cpu", "num_cpus": 2, "compiler": "c",
+                   "flags": "-O3", "turns": "9"}
+        path = self.folder / "in.json"
+        path.write_text(json.dumps({"context": context, "benchmarks": runs}))
+        return path
+
+    def run_script(self, path):
+        done = subprocess.run([SCRIPTS / "large_balls.py", path, self.folder], capture_output=True, text=True,
+                              check=False)
+        return done.returncode, done.stderr
+
+    def test_table_and_pictures(self):
+        self.assertEqual(self.run_script(self.write()), (0, ""))
+        text = (self.folder / "large-balls.md").read_text()
+        self.assertIn("| 10 000 200 | 2 | 3.00 | 1.25 | 9.00 | 4.50 | 8.00 | 8.0 | 1.5 |", text)
+        self.assertIn("medians of 3 repetitions of 9 turns", text)
+        self.assertIn("c0ffee", text)
+        self.assertGreater((self.folder / "large-balls.png").stat().st_size, 10000)
+        self.assertIn("<svg", (self.folder / "large-balls.svg").read_text())
+
+    def test_what_is_no_figure(self):
+        def nan(run):
+            run["x_papers_ball"] = math.nan
+
+        def missing(run):
+            del run["build_s"]
+
+        def failed(run):
+            run["error_occurred"] = True
+            run["error_message"] = "its state is not the plain sweep's"
+
+        for change, complaint in ((nan, "x_papers_ball is nan"), (missing, "build_s is None"),
+                                  (failed, "not the plain sweep's")):
+            code, complaints = self.run_script(self.write(change))
+            self.assertEqual(code, 2)
+            self.assertIn(complaint, complaints)
+            self.assertFalse((self.folder / "large-balls.md").exists())
+
+    def test_bad_input(self):
+        torn = self.folder / "torn.json"
+        torn.write_text('{"context": {')
+        code, complaints = self.run_script(torn)
+        self.assertEqual(code, 2)
+        self.assertIn("torn.json: not a result", complaints)
+
+
 class Rule(unittest.TestCase):
     def test_ranks_of_the_head(self):
         known = {6: 0, 7: 1, 11: 2, 15: 3}  # of six throws even six heads come with 3.1 %
