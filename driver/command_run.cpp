@@ -113,11 +113,14 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
     return static_cast<double>(step) * scene.time.step;
   };
   MonitorCsv monitor(folder / "monitor.csv");
-  ExtendedXyz frames(folder / "frames.extxyz", static_cast<std::size_t>(scene.ball.per_ring));
+  const bool has_rings = scene.ball.kind == BallKind::rings;
+  ExtendedXyz frames(folder / "frames.extxyz", has_rings
+                                                   ? static_cast<std::size_t>(scene.ball.per_ring)
+                                                   : problem.bonds.particles());
   Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
                     scene.time.step);
-  RunGauges gauges(problem, static_cast<int>(scene.ball.radii.size()), scene.time.step,
-                   books != nullptr);
+  RunGauges gauges(problem, has_rings ? static_cast<int>(scene.ball.radii.size()) : 0,
+                   scene.time.step, books != nullptr);
   std::optional<LedgerCsv> ledger;
   if (books != nullptr) ledger.emplace(folder / "ledger.csv");
   RunHooks hooks;

@@ -12,7 +12,8 @@
 namespace bounce {
 
 /// Extended XYZ: a frame is the number of particles, a line of properties, and a line a particle
-/// with species, position (cm, z = 0), velocity (cm/s) and ring (from 1).
+/// with species, position (cm, z = 0), velocity (cm/s) and ring (from 1; of a ball without rings
+/// per_ring is all its particles, and the ring 1).
 class ExtendedXyz {
  public:
   ExtendedXyz(std::filesystem::path path, std::size_t per_ring);

@@ -68,8 +68,10 @@ void check_memory(const SceneFile& file, const std::string& kernel, double avail
   const auto particles = static_cast<double>(ball_size(scene.ball).particles);
   const double each = (needed - program_bytes) / particles;
   const double most = std::max(0.0, (available - program_bytes) / each);
+  const bool has_rings = scene.ball.kind == BallKind::rings;
   throw file.explain(SceneError(
-      "ball.per_ring", fmt::format("{}", scene.ball.per_ring),
+      has_rings ? "ball.per_ring" : "ball.spacing",
+      has_rings ? fmt::format("{}", scene.ball.per_ring) : fmt::format("{}", *scene.ball.spacing),
       fmt::format("a ball of at most {:.3g} particles: this one has {:.3g}, a run takes {:.3g} GB "
                   "({:.0f} bytes a particle), and {:.3g} GB of memory are free",
                   std::floor(most), particles, needed / 1e9, each, available / 1e9)));

@@ -18,7 +18,8 @@ struct RunFindings {
 
 class RunGauges {
  public:
-  /// `rings` as Shape wants them; `time_step` nominal, s; `full`: add() will be given books.
+  /// `rings` as Shape wants them, 0: a ball without; `time_step` nominal, s; `full`: add() will be
+  /// given books.
   RunGauges(const Problem& problem, int rings, double time_step, bool full);
   void add(std::int64_t step, const Sample& sample, const State& state,
            const WallBooks* books = nullptr);

@@ -98,6 +98,9 @@ Words<Constants> words_of(Constants) {
 Words<Rounding> words_of(Rounding) {
   return {{{"listing", Rounding::listing}, {"none", Rounding::none}}};
 }
+Words<BallKind> words_of(BallKind) {
+  return {{{"rings", BallKind::rings}, {"disc", BallKind::disc}}};
+}
 Words<Rest> words_of(Rest) { return {{{"listing", Rest::listing}, {"geometry", Rest::geometry}}}; }
 
 template <class Choice>
@@ -143,6 +146,13 @@ template <class Member>
 Key<Scene> scene_key(std::string table, std::string name, std::string note, Member member) {
   return key<Scene>(std::move(table), std::move(name), std::move(note), member);
 }
+// A key that is written of balls of one kind only.
+Key<Scene> only_for(BallKind kind, Key<Scene> key) {
+  key.write = [kind, write = std::move(key.write)](const Scene& scene) {
+    return scene.ball.kind == kind ? write(scene) : std::string();
+  };
+  return key;
+}
 template <class Member>
 Key<Wall> wall_key(std::string name, std::string note, Member member) {
   return key<Wall>("wall", std::move(name), std::move(note), member);
@@ -158,9 +168,15 @@ const std::vector<Key<Scene>>& scene_keys() {
           "", "constants", "precision of E, E R0^2, g and the step as stored",
           [](Scene & s) -> auto& { return s.constants; }),
       scene_key(
-          "ball", "radii", "cm", [](Scene & s) -> auto& { return s.ball.radii; }),
+          "ball", "kind", "rings, or a filled disc",
+          [](Scene & s) -> auto& { return s.ball.kind; }),
       scene_key(
-          "ball", "per_ring", "", [](Scene & s) -> auto& { return s.ball.per_ring; }),
+          "ball", "radii", "cm", [](Scene & s) -> auto& { return s.ball.radii; }),
+      only_for(BallKind::rings,
+               scene_key(
+                   "ball", "per_ring", "", [](Scene & s) -> auto& { return s.ball.per_ring; })),
+      scene_key(
+          "ball", "spacing", "cm, of a disc", [](Scene & s) -> auto& { return s.ball.spacing; }),
       scene_key(
           "ball", "centre", "cm", [](Scene & s) -> auto& { return s.ball.centre; }),
       scene_key(

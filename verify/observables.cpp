@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace bounce {
@@ -64,6 +65,12 @@ Shape measure_shape(const State& state, int rings) {
       flattening(points(state.x, n - per_ring, per_ring), points(state.y, n - per_ring, per_ring));
   shape.enclosed = area(points(state.x, 0, per_ring), points(state.y, 0, per_ring));
   shape.spin = (dx * vy - dy * vx).sum() / (dx.square() + dy.square()).sum();
+  return shape;
+}
+
+Shape measure_shape(const State& state) {
+  Shape shape = measure_shape(state, 1);
+  shape.enclosed = std::numeric_limits<double>::quiet_NaN();
   return shape;
 }
 

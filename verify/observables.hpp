@@ -17,13 +17,15 @@ struct Shape {
   double height = 0.0;  ///< extent in y, cm
   double flattening =
       0.0;  ///< 1 - shorter/longer principal axis of the outer ring (its gyration tensor)
-  double enclosed =
-      0.0;            ///< signed area inside the inner ring, cm^2; falls to 0 or below on collapse
+  /// Signed area inside the inner ring, cm^2; falls to 0 or below on collapse. NaN without rings.
+  double enclosed = 0.0;
   double spin = 0.0;  ///< angular momentum / moment of inertia, rad/s; negative = clockwise
 };
 
 /// Throws std::invalid_argument if the particles cannot be `rings` rings of one size.
 Shape measure_shape(const State& state, int rings);
+/// Of a ball without rings, all of which is its outer ring.
+Shape measure_shape(const State& state);
 
 /// A bounce, gathered from samples in the order of time.
 struct Bounce {

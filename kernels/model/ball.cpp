@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/model/bonds.hpp"
+#include "kernels/model/disc.hpp"
 
 namespace bounce {
 namespace {
@@ -37,11 +37,15 @@ double four_decimals(double x) {
   return read + 0.0;  // -0.0000 reads as zero
 }
 
+double as_printed(Rounding rounding, double x) {
+  return rounding == Rounding::listing ? four_decimals(x) : x;
+}
+
 State make_ball(const BallSpec& spec) {
+  if (spec.kind == BallKind::disc) return make_disc(spec);
   const auto n = static_cast<std::size_t>(spec.per_ring);
   State state(spec.radii.size() * n);
-  const bool rounded = spec.rounding == Rounding::listing;
-  const auto format = [rounded](double x) { return rounded ? four_decimals(x) : x; };
+  const auto format = [&spec](double x) { return as_printed(spec.rounding, x); };
   const double vx = format(spec.velocity.x);
   const double vy = format(spec.velocity.y);
   for (std::size_t ring = 0; ring < spec.radii.size(); ++ring) {
@@ -57,7 +61,22 @@ State make_ball(const BallSpec& spec) {
   return state;
 }
 
+Neighbours ball_neighbours(const BallSpec& spec) {
+  if (spec.kind == BallKind::rings) {
+    return Neighbours::of_rings(static_cast<int>(spec.radii.size()), spec.per_ring);
+  }
+  BondList bonds = disc_bonds(DiscRows(spec.radii.front(), spec.spacing.value()));
+  check_bonds(bonds);
+  return bonds;
+}
+
 BallSize ball_size(const BallSpec& spec) {
+  if (spec.kind == BallKind::disc) {
+    const DiscRows rows(spec.radii.front(), spec.spacing.value());
+    const auto particles = static_cast<std::size_t>(rows.particles());
+    const auto entries = static_cast<std::size_t>(2 * rows.bonds());
+    return {particles, entries, bond_list_bytes(particles, entries)};
+  }
   const auto rings = static_cast<int>(spec.radii.size());
   return {static_cast<std::size_t>(rings * spec.per_ring), ring_entries(rings, spec.per_ring), 0};
 }
@@ -67,6 +86,7 @@ std::vector<double> rest_lengths_squared(const BallSpec& spec, Rest rest) {
     return {0.06854, 1.0205, 0.09865, 1.028925,
             0.1343};  // MODEL 2: the listing's constants / 16000
   }
+  if (spec.kind == BallKind::disc) return {*spec.spacing * *spec.spacing};
   // In extended precision, so that each square is the double nearest to the exact geometry's.
   const long double half_spacing =
       std::numbers::pi_v<long double> / static_cast<long double>(spec.per_ring);

@@ -23,6 +23,12 @@ struct BondList {
   bool operator==(const BondList&) const = default;
 };
 
+/// Bytes of a list.
+constexpr std::size_t bond_list_bytes(std::size_t particles, std::size_t entries) {
+  return sizeof(std::int64_t) * (particles + 1) +
+         (sizeof(std::int32_t) + sizeof(std::uint16_t)) * entries;
+}
+
 /// One entry of a row.
 struct BondEntry {
   std::int64_t neighbour;

@@ -90,8 +90,7 @@ Problem make_problem(const Scene& scene, const std::optional<State>& initial) {
   }
   problem.initial = initial ? *initial : make_ball(scene.ball);
   check_start(scene, problem);
-  problem.bonds =
-      Neighbours::of_rings(static_cast<int>(scene.ball.radii.size()), scene.ball.per_ring);
+  problem.bonds = ball_neighbours(scene.ball);
   return problem;
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "kernels/stepping/method.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 // Bounds that no run on one machine passes; they keep index arithmetic and memory sane.
 constexpr double most_particles = 5e7;
+constexpr std::size_t most_radii = 1000;  // a bond class has 16 bits
 constexpr double most_steps = 1e15;
 constexpr double largest = 1e150;  // squares stay finite
 
@@ -40,13 +42,45 @@ std::string indexed(const std::string& key, std::size_t i) {
 }
 
 bool is_papers_ball(const BallSpec& ball) {
-  return ball.per_ring == 120 && ball.radii == std::vector<double>{5.0, 6.0, 7.0};
+  return ball.kind == BallKind::rings && ball.per_ring == 120 &&
+         ball.radii == std::vector<double>{5.0, 6.0, 7.0};
+}
+
+void validate_rings(const BallSpec& ball) {
+  if (ball.spacing) {
+    throw SceneError("ball.spacing", print(*ball.spacing),
+                     "none for rings, which per_ring spaces; ball.kind = \"disc\" has one");
+  }
+  const double particles =
+      static_cast<double>(ball.per_ring) * static_cast<double>(ball.radii.size());
+  if (ball.per_ring < 3 || !(particles <= most_particles)) {
+    throw SceneError("ball.per_ring", std::to_string(ball.per_ring),
+                     "3 or more, and at most 50 million particles in all");
+  }
+}
+
+void validate_disc(const BallSpec& ball) {
+  if (ball.radii.size() != 1) {
+    throw SceneError("ball.radii", std::to_string(ball.radii.size()) + " radii",
+                     "the one radius of a disc");
+  }
+  if (!ball.spacing) {
+    throw SceneError("ball.spacing", "nothing", "the spacing of the disc's particles, cm");
+  }
+  // A lattice particle has spacing^2 sqrt(3)/2 of the area.
+  const double radius = ball.radii.front() / *ball.spacing;
+  const double particles = 2.0 * std::numbers::pi / std::numbers::sqrt3 * radius * radius;
+  if (!(*ball.spacing > 0.0 && radius >= 1.0 && particles <= most_particles)) {
+    throw SceneError("ball.spacing", print(*ball.spacing),
+                     "above 0, at most the radius, and at most 50 million particles in all");
+  }
 }
 
 void validate_ball(const BallSpec& ball) {
   if (ball.radii.empty()) throw SceneError("ball.radii", "[]", "at least one radius");
-  if (ball.radii.size() > 100) {
-    throw SceneError("ball.radii", std::to_string(ball.radii.size()) + " radii", "1 to 100 radii");
+  if (ball.radii.size() > most_radii) {
+    throw SceneError("ball.radii", std::to_string(ball.radii.size()) + " radii",
+                     "1 to " + std::to_string(most_radii) + " radii");
   }
   for (std::size_t i = 0; i < ball.radii.size(); ++i) {
     need_positive(indexed("ball.radii", i), ball.radii[i]);
@@ -55,11 +89,10 @@ void validate_ball(const BallSpec& ball) {
                        "more than the radius before it, " + print(ball.radii[i - 1]));
     }
   }
-  const double particles =
-      static_cast<double>(ball.per_ring) * static_cast<double>(ball.radii.size());
-  if (ball.per_ring < 3 || !(particles <= most_particles)) {
-    throw SceneError("ball.per_ring", std::to_string(ball.per_ring),
-                     "3 or more, and at most 50 million particles in all");
+  if (ball.kind == BallKind::rings) {
+    validate_rings(ball);
+  } else {
+    validate_disc(ball);
   }
   need_finite("ball.centre", ball.centre);
   need_finite("ball.velocity", ball.velocity);

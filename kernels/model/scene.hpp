@@ -34,15 +34,23 @@ enum class Rounding { listing, none };
 /// Where the rest lengths of the bonds come from.
 enum class Rest {
   listing,   ///< the listing's five constants: only for three rings of 120 at 5, 6, 7 cm
-  geometry,  ///< the distances of the exact circles
+  geometry,  ///< the distances of the exact circles, a disc's spacing
 };
 
-/// Rings of particles round one centre; every other ring is staggered by half a spacing.
+/// What a ball is built of.
+enum class BallKind {
+  rings,  ///< round one centre; every other ring is staggered by half a spacing
+  disc,   ///< filled, on a triangular lattice
+};
+
+/// The ball at the start. Rings need per_ring, a disc needs spacing.
 struct BallSpec {
-  std::vector<double> radii{5.0, 6.0, 7.0};  ///< cm, increasing
+  BallKind kind = BallKind::rings;
+  std::vector<double> radii{5.0, 6.0, 7.0};  ///< cm, increasing; of a disc its one radius
   std::int64_t per_ring = 120;
-  Vec2 centre{0.0, 10.0};  ///< cm
-  Vec2 velocity{};         ///< cm/s, of every particle
+  std::optional<double> spacing;  ///< cm, of a disc's lattice
+  Vec2 centre{0.0, 10.0};         ///< cm
+  Vec2 velocity{};                ///< cm/s, of every particle
   Rounding rounding = Rounding::listing;
 };
 

@@ -33,20 +33,11 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
-// The widest target whose lanes the columns can be dealt to evenly, two columns a lane at least.
-int lanes_for(std::int64_t per_ring, VectorTarget target) {
-  const auto fits = [per_ring](int lanes) {
-    return per_ring % lanes == 0 && per_ring / lanes >= 2;
-  };
-  if (target == VectorTarget::avx512 && fits(8)) return 8;
-  return fits(4) ? 4 : 0;
-}
-
 std::string prepare_ring(const Problem& problem, const PlanRequest& request, Plan& plan) {
   const RingForm form = find_ring_form(problem);
   if (!form.refusal.empty()) return form.refusal;
   const RingShape& shape = form.shape;
-  plan.lanes = lanes_for(shape.per_ring, plan.vector);
+  plan.lanes = ring_lanes(shape.per_ring, plan.vector);
   if (plan.lanes == 0) {
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
   }

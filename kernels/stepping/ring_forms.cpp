@@ -9,11 +9,9 @@ namespace bounce {
 namespace {
 
 std::string refuses_law(LawForm form, int rings) {
-  if (form == LawForm::three_five) return {};
-  const bool known = form == LawForm::seven_thirteen || form == LawForm::two_four;
-  if (known && rings == 3) return {};
-  return known ? "exponents other than (3, 5) are compiled for three rings only"
-               : "its exponents (p, q) are not one of (3, 5), (7, 13), (2, 4)";
+  if (form == LawForm::three_five || (has_ring_law(form) && rings == 3)) return {};
+  return has_ring_law(form) ? "exponents other than (3, 5) are compiled for three rings only"
+                            : "its exponents (p, q) are not one of (3, 5), (7, 13), (2, 4)";
 }
 
 // Of the law, a bond (vector_law-inl.hpp); roots are not counted.
@@ -29,6 +27,19 @@ int law_multiplications(LawForm form) {
 }
 
 }  // namespace
+
+bool has_ring_law(LawForm form) {
+  return form == LawForm::three_five || form == LawForm::seven_thirteen ||
+         form == LawForm::two_four;
+}
+
+int ring_lanes(std::int64_t per_ring, VectorTarget target) {
+  const auto fits = [per_ring](int lanes) {
+    return per_ring % lanes == 0 && per_ring / lanes >= 2;
+  };
+  if (target == VectorTarget::avx512 && fits(8)) return 8;
+  return fits(4) ? 4 : 0;
+}
 
 RingForm find_ring_form(const Problem& problem) {
   const auto shape = find_rings(problem.bonds);
@@ -48,6 +59,14 @@ double ring_multiplications(const Problem& problem, int rings, std::int64_t colu
   const int a_column = bonds * a_bond + bonds / 4 * to_share[4] +
                        to_share[static_cast<std::size_t>(bonds % 4)] + 2 * rings;
   return static_cast<double>(columns) * a_column * problem.method->evaluations;
+}
+
+double rings_multiplications(const Problem& problem, int rings, std::int64_t columns) {
+  const int a_bond = 2 + law_multiplications(law_form(problem.law)) + 4;
+  constexpr int to_share_among_three = 6;
+  const int a_ring = 3 * a_bond + to_share_among_three + 2;
+  return static_cast<double>(columns) * ((rings - 1) * a_ring + a_bond + 2) *
+         problem.method->evaluations;
 }
 
 }  // namespace bounce

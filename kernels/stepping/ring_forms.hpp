@@ -5,6 +5,7 @@
 
 #include "kernels/stepping/plan.hpp"
 #include "kernels/stepping/ring_shape.hpp"
+#include "kernels/stepping/scene_forms.hpp"
 
 namespace bounce {
 
@@ -16,8 +17,17 @@ struct RingForm {
 };
 RingForm find_ring_form(const Problem& problem);
 
+/// Whether the ring kernels are compiled for this law.
+bool has_ring_law(LawForm form);
+
+/// The most lanes of the target that so many columns can be dealt to evenly, two columns a lane at
+/// least: 8, 4, or 0 if neither.
+int ring_lanes(std::int64_t per_ring, VectorTarget target);
+
 /// Multiplications and multiply-adds of whole vectors that `columns` columns take: what the ports
 /// must do at least.
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns);
+/// The same of the kernel rings.
+double rings_multiplications(const Problem& problem, int rings, std::int64_t columns);
 
 }  // namespace bounce

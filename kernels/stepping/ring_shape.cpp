@@ -62,14 +62,14 @@ RingShape shape_of(const Neighbours::Rings& known) {
 
 }  // namespace
 
-std::optional<RingShape> find_rings(const Neighbours& neighbours) {
+std::optional<RingShape> find_rings(const Neighbours& neighbours, int most) {
   if (const auto& known = neighbours.rings()) {
-    if (known->rings > most_rings) return std::nullopt;
+    if (known->rings > most) return std::nullopt;
     return shape_of(*known);
   }
   const BondList& bonds = neighbours.list();
   const auto particles = static_cast<std::int64_t>(bonds.particles());
-  for (int rings = 1; rings <= most_rings; ++rings) {
+  for (int rings = 1; rings <= most; ++rings) {
     if (particles % rings != 0 || particles / rings < 3) continue;
     if (auto shape = match(bonds, rings)) return shape;
   }

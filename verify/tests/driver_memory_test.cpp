@@ -84,6 +84,11 @@ TEST(MemoryCheck, RefusesNamingKeyValueAndWhatIsAllowed) {
     EXPECT_NE(text.find("this one has 6e+05"), std::string::npos) << text;
   }
   EXPECT_THROW(check_memory(file, "auto", 0.0), InputError);
+  SceneFile disc = SceneFile::find("disc");
+  disc.set("ball.spacing=0.01");
+  EXPECT_NO_THROW(check_memory(disc, "auto", 1e9));
+  disc.set("ball.spacing=0.003");
+  EXPECT_THROW(check_memory(disc, "auto", 1e9), InputError);
 }
 
 // In a process of its own: the limit stays.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -186,6 +187,50 @@ TEST_F(DriverRunTest, AnUnstableRunWithBooksEndsAsWithout) {
   ASSERT_EQ(run(plain), 3) << err();
   ASSERT_EQ(run(booked), 3) << err();
   EXPECT_EQ(contents(folder_ / "r/final.csv"), contents(folder_ / "s/final.csv"));
+}
+
+// The number behind a key of a JSON text; NaN if there is none.
+double number(const std::string& json, const std::string& key) {
+  const auto at = json.find("\"" + key + "\": ");
+  if (at == std::string::npos) return std::nan("");
+  char* end = nullptr;
+  const char* text = json.c_str() + at + key.size() + 4;
+  const double value = std::strtod(text, &end);
+  return end == text ? std::nan("") : value;
+}
+
+TEST_F(DriverRunTest, ADiscFallsAndBounces) {
+  ASSERT_EQ(run({"run", "disc", "--set", "ball.spacing=0.5", "--out", "r"}), 0) << err();
+  const std::string json = contents(folder_ / "r/run.json");
+  EXPECT_NE(json.find("\"kernel\": \"csr\""), std::string::npos) << json;
+  EXPECT_EQ(number(json, "particles"), 517.0);
+  // The lowest row hangs 13 rows, 5.63 cm, below the centre.
+  const double fall = 10.0 - 13 * 0.5 * std::sqrt(0.75);
+  EXPECT_NEAR(number(json, "first_contact"), std::sqrt(2.0 * fall / 9.8), 0.011);
+  EXPECT_GT(number(json, "greatest_flattening"), 0.02);
+  const double lowest = number(json, "lowest_centre"), back = number(json, "rebound_height");
+  EXPECT_TRUE(lowest > 4.0 && lowest < 5.6) << lowest;
+  EXPECT_GT(back, lowest + 0.5);
+  // One ring, so to speak, in every frame.
+  std::ifstream frames(folder_ / "r/frames.extxyz");
+  std::string line;
+  std::getline(frames, line);
+  EXPECT_EQ(line, "517");
+  std::getline(frames, line);
+  for (int i = 0; i < 517; ++i) {
+    std::getline(frames, line);
+    EXPECT_EQ(line.substr(line.rfind(' ')), " 1");
+  }
+}
+
+TEST_F(DriverRunTest, AThickAnnulusIsSteppedByRings) {
+  ASSERT_EQ(
+      run({"run", "annulus", "--steps", "20", "--set", "ball.centre=[0, 21.0785]", "--out", "r"}),
+      0)
+      << err();
+  const std::string json = contents(folder_ / "r/run.json");
+  EXPECT_NE(json.find("\"kernel\": \"rings\""), std::string::npos) << json;
+  EXPECT_EQ(number(json, "particles"), 72000.0);
 }
 
 TEST_F(DriverRunTest, ABallThatMemoryCannotHoldIsRefusedBeforeItIsBuilt) {

@@ -17,6 +17,8 @@ void expect_same(const Scene& a, const Scene& b) {
   const auto same = [](Vec2 u, Vec2 v) { return u.x == v.x && u.y == v.y; };
   EXPECT_EQ(a.title, b.title);
   EXPECT_EQ(a.constants, b.constants);
+  EXPECT_EQ(a.ball.kind, b.ball.kind);
+  EXPECT_EQ(a.ball.spacing, b.ball.spacing);
   EXPECT_EQ(a.ball.radii, b.ball.radii);
   EXPECT_EQ(a.ball.per_ring, b.ball.per_ring);
   EXPECT_TRUE(same(a.ball.centre, b.ball.centre));
@@ -91,13 +93,20 @@ TEST(SceneFileTest, EveryKeyGoesRound) {
 }
 
 TEST(SceneFileTest, EveryBuiltInSceneParsesValidatesBuildsAndGoesRound) {
-  EXPECT_EQ(built_in_scenes().size(), 9U);
+  EXPECT_EQ(built_in_scenes().size(), 11U);
   for (const BuiltInScene& built_in : built_in_scenes()) {
     SCOPED_TRACE(built_in.name);
     const Scene scene = SceneFile::find(std::string(built_in.name)).scene();
     expect_same(parsed(to_toml(scene)), scene);
     EXPECT_FALSE(scene.title.empty());
-    EXPECT_EQ(make_problem(scene).bonds.bonds(), 840U);
+    const std::size_t rings = scene.ball.radii.size();
+    const auto columns = static_cast<std::size_t>(scene.ball.per_ring);
+    const std::size_t bonds = make_problem(scene).bonds.bonds();
+    if (scene.ball.kind == BallKind::disc) {
+      EXPECT_EQ(bonds, 9570U);
+    } else {
+      EXPECT_EQ(bonds, (3 * rings - 2) * columns);
+    }
   }
 }
 

@@ -40,6 +40,15 @@ TEST(Shape, RoundBall) {
   EXPECT_EQ(shape.spin, 0.0);
 }
 
+TEST(Shape, WithoutRingsTheWholeBallIsTheOutline) {
+  const Shape rings = measure_shape(ellipses(1.0, 0.5, 0.7, -0.3), 3);
+  const Shape none = measure_shape(ellipses(1.0, 0.5, 0.7, -0.3));
+  EXPECT_NEAR(none.flattening, 0.5, 1e-13);
+  EXPECT_EQ(none.width, rings.width);
+  EXPECT_EQ(none.spin, rings.spin);
+  EXPECT_TRUE(std::isnan(none.enclosed));
+}
+
 TEST(Shape, TurnedEllipse) {
   const Shape shape = measure_shape(ellipses(1.0, 0.5, 0.7, -0.3), 3);
   EXPECT_NEAR(shape.flattening, 0.5, 1e-13);
