@@ -13,6 +13,7 @@
 #include "driver/extended_xyz.hpp"
 #include "driver/files.hpp"
 #include "driver/interrupt.hpp"
+#include "driver/load_problem.hpp"
 #include "driver/monitor_csv.hpp"
 #include "driver/progress.hpp"
 #include "driver/run_directory.hpp"
@@ -20,6 +21,7 @@
 #include "driver/run_record.hpp"
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
+#include "driver/step_check.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
 
@@ -69,14 +71,21 @@ SceneFile load_scene(const Options& options) {
   return file;
 }
 
-Problem prepare(const SceneFile& file, const Options& options) {
-  std::optional<State> start;
-  if (!options.initial.empty()) start = read_state(options.initial);
-  try {
-    return make_problem(file.scene(), start);
-  } catch (const SceneError& error) {
-    throw file.explain(error);
+// Says before the run how near it is to the edge of stability. Beyond it runs only with --force.
+std::optional<StepCheck> check_before(const SceneFile& file, const Problem& problem,
+                                      const Options& options) {
+  const auto check = check_step(problem);
+  if (!options.force) refuse_unstable_step(file, problem, check);
+  if (options.quiet || !check) return check;
+  fmt::print("{}\n", describe(*check, problem));
+  std::fflush(stdout);
+  if (!(check->part <= part_to_warn_of)) {
+    fmt::print(stderr, "bounce: warning: time.step = {} is {:.2g} of the stable step {:.4g} s{}\n",
+               file.scene().time.step, check->part, check->stable_step,
+               check->part > 1.0 ? "; it is run all the same (--force)"
+                                 : "; in an impact, which presses bonds, it may become unstable");
   }
+  return check;
 }
 
 // BAL4.OUT1 at the first million steps and so on, BAL4.OUT at the end. As in the listing, the end
@@ -99,7 +108,7 @@ void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end
 
 // Runs and fills the directory with all that is written on the way.
 RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
-                   Stepper& stepper, const fs::path& folder) {
+                   Stepper& stepper, MarginGauge& gauge, const fs::path& folder) {
   const Schedule schedule(scene, options.listing_frames);
   const auto time = [&scene](std::int64_t step) {
     return static_cast<double>(step) * scene.time.step;
@@ -109,8 +118,12 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
                     scene.time.step);
   RunHooks hooks;
+  double stable_part = 0.0;
+  hooks.margin = [&](std::int64_t step, const State& state) {
+    stable_part = gauge.add(step, state);
+  };
   hooks.sample = [&](std::int64_t step, const Sample& sample) {
-    monitor.write(time(step), sample);
+    monitor.write(time(step), sample, stable_part);
   };
   hooks.frame = [&](std::int64_t step, const State& state) {
     frames.write(step, time(step), state);
@@ -141,6 +154,10 @@ void print_summary(const RunRecord& record, const Options& options) {
   if (!plan.left_out.empty()) fmt::print("left out: {}\n", fmt::join(plan.left_out, ", "));
   fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
              record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
+  if (const auto& margin = record.margin) {
+    const double time = static_cast<double>(margin->step) * record.scene.time.step;
+    fmt::print("greatest part of the stable step used: {}\n", describe(*margin, time));
+  }
   fmt::print("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
   fmt::print("state hash: {:016x}\n", state_hash(result.last));
   fmt::print("files: {}\n", options.directory().string());
@@ -175,7 +192,8 @@ int run(const Options& options, const std::string& command_line) {
   record.initial = options.initial;
   record.scene = file.scene();
   record.steps_asked = record.scene.steps_until(record.scene.time.end);
-  const Problem problem = prepare(file, options);
+  const Problem problem = load_problem(file, options.initial);
+  record.step_check = check_before(file, problem, options);
   record.particles = problem.initial.size();
   record.bonds = problem.bonds.bonds();
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
@@ -185,7 +203,9 @@ int run(const Options& options, const std::string& command_line) {
   RunDirectory directory(options.directory(), options.force);
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
   catch_interrupts();
-  record.result = simulate(options, record.scene, problem, *stepper, directory.path());
+  MarginGauge gauge(problem);
+  record.result = simulate(options, record.scene, problem, *stepper, gauge, directory.path());
+  record.margin = gauge.result();
   const std::string last = state_csv(record.result.last);
   write_text(directory.path() / "final.csv", last);
   write_text(directory.path() / "run.json", run_json(record));
@@ -213,7 +233,8 @@ void add_options(CLI::App& command, Options& options) {
                      "Write the last state to FILE: CSV, 17 significant digits");
   command.add_flag("--listing-frames", options.listing_frames,
                    "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
-  command.add_flag("--force", options.force, "Replace results that exist");
+  command.add_flag("--force", options.force,
+                   "Replace results that exist, and run a time step beyond the stable one");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 

@@ -6,17 +6,18 @@ namespace bounce {
 
 MonitorCsv::MonitorCsv(const std::filesystem::path& path) : file_(path) {
   file_.write(
-      "t,kinetic,bond,gravity,total,px,py,angular_momentum,cx,cy,lowest,smallest_ratio,on_wall\n");
+      "t,kinetic,bond,gravity,total,px,py,angular_momentum,cx,cy,lowest,smallest_ratio,on_wall,"
+      "stable_part\n");
 }
 
-void MonitorCsv::write(double time, const Sample& now) {
+void MonitorCsv::write(double time, const Sample& now, double stable_part) {
   if (!started_) start_ = now;
   started_ = true;
-  file_.write(fmt::format("{:.12g},{},{},{},{},{},{},{},{},{},{},{},{}\n", time,
+  file_.write(fmt::format("{:.12g},{},{},{},{},{},{},{},{},{},{},{},{},{:.6g}\n", time,
                           now.kinetic - start_.kinetic, now.bond - start_.bond,
                           now.gravity - start_.gravity, now.total() - start_.total(),
                           now.momentum.x, now.momentum.y, now.angular_momentum, now.centre.x,
-                          now.centre.y, now.lowest, now.smallest_ratio, now.on_wall));
+                          now.centre.y, now.lowest, now.smallest_ratio, now.on_wall, stable_part));
 }
 
 }  // namespace bounce

@@ -10,12 +10,12 @@ namespace bounce {
 
 /// One row a sample. t in s; energies as differences from their values at the start (run.json has
 /// those), so that no digits are lost; momenta, centre of mass and lowest point in cgs; smallest
-/// R/R0 of any bond; number of particles on a wall.
+/// R/R0 of any bond; number of particles on a wall; time step / stable step (MarginGauge::add).
 class MonitorCsv {
  public:
   explicit MonitorCsv(const std::filesystem::path& path);
   /// The first sample written is the start.
-  void write(double time, const Sample& sample);
+  void write(double time, const Sample& sample, double stable_part);
   void close() { file_.close(); }
 
  private:

@@ -67,7 +67,10 @@ bool RunLoop::look(RunStatus status) {
   watch_.accept(sample);
   good_ = stepper_.save();
   if (step == 0) result_.start = sample;
-  if (schedule_.sample_due(step) || status == RunStatus::interrupted) hooks_.sample(step, sample);
+  if (schedule_.sample_due(step) || status == RunStatus::interrupted) {
+    if (hooks_.margin) hooks_.margin(step, state);
+    hooks_.sample(step, sample);
+  }
   if (schedule_.frame_due(step)) hooks_.frame(step, state);
   if (schedule_.listing_frame_due(step)) hooks_.listing_frame(step, state);
   return true;

@@ -14,6 +14,8 @@ namespace bounce {
 
 /// What a run tells its surroundings. Called only with states that the watch has passed.
 struct RunHooks {
+  /// If set: the state of the sample that follows.
+  std::function<void(std::int64_t step, const State&)> margin;
   std::function<void(std::int64_t step, const Sample&)> sample;
   std::function<void(std::int64_t step, const State&)> frame;
   std::function<void(std::int64_t step, const State&)> listing_frame;

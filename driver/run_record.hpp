@@ -4,6 +4,7 @@
 #include <string>
 
 #include "driver/run_loop.hpp"
+#include "driver/step_check.hpp"
 #include "kernels/model/scene.hpp"
 #include "kernels/stepping/plan.hpp"
 
@@ -19,6 +20,8 @@ struct RunRecord {
   std::size_t particles = 0, bonds = 0;
   std::int64_t steps_asked = 0;
   RunResult result;
+  std::optional<StepCheck> step_check;  ///< at the start; nothing: no finite stiffness there
+  std::optional<Margin> margin;         ///< of the states of monitor.csv's rows
 };
 
 /// "complete", "interrupted" or "unstable".
