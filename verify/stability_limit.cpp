@@ -6,8 +6,8 @@
 namespace bounce {
 namespace {
 
-// What rounding in the coefficients and in the products may add to |trace|/2 where it only touches
-// 1. A step that leaves by no more than this grows by at most sqrt(2e-12) a step.
+// What rounding in the products, and coefficients given to seven digits, may add to |trace|/2 where
+// it only touches 1. A step that leaves by no more than this grows by at most sqrt(2e-12) a step.
 constexpr double touch = 1e-12;
 
 // A NaN is outside.
