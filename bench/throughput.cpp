@@ -1,4 +1,5 @@
-// Throughput of the kernels on Example 2, in double precision.
+// Throughput of the kernels, in double precision: most rows on Example 2, some on others of the
+// paper's.
 //
 // Each repetition of a row takes turns: a batch of the oracle (-O3 -march=native), a batch of the
 // row, a batch of the oracle with -Ofast. Ratios are made turn by turn, so a clock that swings does
@@ -6,23 +7,30 @@
 // the oracle; if it is off by more than rounding, it is an error and not a time.
 //
 // The port limit is the time that the kernel's multiplications and multiply-adds alone would take
-// at the rate measured in the same turn; a row of one thread says which part of it is reached.
+// at the rate measured in the same turn; a row of one thread says which part of it is reached. A
+// row of several threads on one ball says how long a hand-shake between two of them took meanwhile.
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "bench/hand_shake.hpp"
 #include "bench/multiply_add_rate.hpp"
+#include "bench/timing.hpp"
 #include "driver/origin.hpp"
 #include "driver/scene_file.hpp"
+#include "kernels/stepping/ensemble.hpp"
 #include "kernels/stepping/plan.hpp"
+#include "kernels/stepping/ring_forms.hpp"
+#include "kernels/stepping/ring_shape.hpp"
 #include "verify/oracle.hpp"
 
 namespace bounce {
@@ -42,14 +50,20 @@ constexpr std::int64_t checked_steps = 1000;
 // Two runs that round each position to half an ULP of 16 cm may part by one (3.6e-15 cm) a step.
 constexpr double allowed_difference = checked_steps * 3.6e-15;  // cm
 
-const Scene& scene() {
-  static const Scene example = SceneFile::find("example-2").scene();
-  return example;
-}
+struct Case {
+  std::string name;
+  Scene scene;
+  Problem problem;
+};
 
-const Problem& problem() {
-  static const Problem made = make_problem(scene());
-  return made;
+const Case& case_of(const std::string& name) {
+  static std::map<std::string, Case> cases;
+  auto found = cases.find(name);
+  if (found == cases.end()) {
+    const Scene scene = SceneFile::find(name).scene();
+    found = cases.emplace(name, Case{name, scene, make_problem(scene)}).first;
+  }
+  return found->second;
 }
 
 double largest_difference(const State& a, const State& b) {
@@ -61,10 +75,11 @@ double largest_difference(const State& a, const State& b) {
   return largest;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
+// Multiplications of whole vectors a step of one ball takes.
+struct Counted {
+  double multiplications;
+  VectorTarget vector;
+};
 
 // What a row times: balls that are stepped, all by the same number of steps.
 class Subject {
@@ -73,13 +88,15 @@ class Subject {
   virtual void advance(std::int64_t steps) = 0;
   [[nodiscard]] virtual std::vector<State> states() const = 0;
   [[nodiscard]] virtual std::int64_t balls() const { return 1; }
-  /// How its steps are taken; no plan, or more threads than one: no port limit.
-  [[nodiscard]] virtual const Plan* plan() const { return nullptr; }
+  /// For the port limit; nothing for several threads and for operations that nobody counted.
+  [[nodiscard]] virtual std::optional<Counted> counted() const { return std::nullopt; }
+  /// Threads that meet once a stage.
+  [[nodiscard]] virtual int team() const { return 1; }
 };
 
 class OracleSubject final : public Subject {
  public:
-  explicit OracleSubject(RunListing run) : oracle_(scene(), problem().initial, run) {}
+  OracleSubject(const Case& of, RunListing run) : oracle_(of.scene, of.problem.initial, run) {}
   void advance(std::int64_t steps) override { oracle_.step(steps); }
   [[nodiscard]] std::vector<State> states() const override { return {oracle_.state()}; }
 
@@ -87,31 +104,37 @@ class OracleSubject final : public Subject {
   Oracle oracle_;
 };
 
+PlanRequest request_of(const std::string& kernel, const std::string& vector, int threads) {
+  PlanRequest request;
+  request.kernel = kernel;
+  request.vector = vector;
+  request.threads = threads;
+  return request;
+}
+
 class KernelSubject final : public Subject {
  public:
-  KernelSubject(const std::string& kernel, const std::string& vector, int threads) {
-    PlanRequest request;
-    request.kernel = kernel;
-    request.vector = vector;
-    request.threads = threads;
-    plan_ = make_plan(problem(), request);
-    stepper_ = make_stepper(problem(), plan_);
-  }
+  KernelSubject(const Case& of, const PlanRequest& request)
+      : plan_(make_plan(of.problem, request)), stepper_(make_stepper(of.problem, plan_)) {}
   void advance(std::int64_t steps) override { stepper_->advance(steps); }
   [[nodiscard]] std::vector<State> states() const override { return {stepper_->state()}; }
-  [[nodiscard]] const Plan* plan() const override { return &plan_; }
+  [[nodiscard]] std::optional<Counted> counted() const override {
+    if (plan_.threads > 1 || plan_.multiplications == 0.0) return std::nullopt;
+    return Counted{plan_.multiplications, plan_.vector};
+  }
+  [[nodiscard]] int team() const override { return plan_.threads; }
 
  private:
   Plan plan_;
   std::unique_ptr<Stepper> stepper_;
 };
 
-// Independent balls, dealt to threads.
+// Independent balls, one after another, dealt to threads.
 class ManySubject final : public Subject {
  public:
-  ManySubject(const std::string& kernel, const std::string& vector, int balls, int threads)
+  ManySubject(const Case& of, const std::string& vector, int balls, int threads)
       : threads_(threads) {
-    for (int i = 0; i < balls; ++i) balls_.emplace_back(kernel, vector, 1);
+    for (int i = 0; i < balls; ++i) balls_.emplace_back(of, request_of("ring", vector, 1));
   }
   void advance(std::int64_t steps) override {
 #pragma omp parallel for num_threads(threads_) schedule(static)
@@ -132,10 +155,36 @@ class ManySubject final : public Subject {
   int threads_;
 };
 
+// Independent balls, one a lane.
+class EnsembleSubject final : public Subject {
+ public:
+  EnsembleSubject(const Case& of, const std::string& vector, int balls, int threads)
+      : ensemble_(std::vector<Problem>(static_cast<std::size_t>(balls), of.problem),
+                  request_of("ring", vector, threads)) {
+    const std::optional<RingShape> shape = find_rings(of.problem.bonds);
+    const double a_batch = ring_multiplications(of.problem, shape->rings, shape->per_ring);
+    if (threads == 1) counted_ = {a_batch / ensemble_.lanes(), make_plan(of.problem).vector};
+  }
+  void advance(std::int64_t steps) override { ensemble_.advance(steps); }
+  [[nodiscard]] std::vector<State> states() const override {
+    std::vector<State> all;
+    for (std::size_t i = 0; i < ensemble_.size(); ++i) all.push_back(ensemble_.state(i));
+    return all;
+  }
+  [[nodiscard]] std::int64_t balls() const override {
+    return static_cast<std::int64_t>(ensemble_.size());
+  }
+  [[nodiscard]] std::optional<Counted> counted() const override { return counted_; }
+
+ private:
+  Ensemble ensemble_;
+  std::optional<Counted> counted_;
+};
+
 using MakeSubject = std::function<std::unique_ptr<Subject>()>;
 
-double difference_from_oracle(const MakeSubject& make) {
-  Oracle oracle(scene(), problem().initial);
+double difference_from_oracle(const Case& of, const MakeSubject& make) {
+  Oracle oracle(of.scene, of.problem.initial);
   oracle.step(checked_steps);
   const auto subject = make();
   subject->advance(checked_steps);
@@ -147,45 +196,32 @@ double difference_from_oracle(const MakeSubject& make) {
   return largest;
 }
 
-double seconds_of(Subject& subject, std::int64_t steps) {
-  const auto start = std::chrono::steady_clock::now();
-  subject.advance(steps);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Seconds a step of one ball.
 double time_step(Subject& subject, std::int64_t steps) {
   return seconds_of(subject, steps) / static_cast<double>(steps * subject.balls());
 }
 
-// A batch of about 5 ms, found by doubling.
-std::int64_t batch_for(Subject& subject) {
-  std::int64_t steps = 16;
-  while (seconds_of(subject, steps) < 2.5e-3) steps *= 2;
-  return steps;
-}
-
 // Seconds a step would take if the ports did nothing but multiply; 0 if nobody counted.
 double port_limit(const Subject& subject) {
-  const Plan* plan = subject.plan();
-  if (plan == nullptr || plan->threads > 1 || plan->multiplications == 0.0) return 0.0;
-  return plan->multiplications / multiply_add_rate(plan->vector);
+  const std::optional<Counted> counted = subject.counted();
+  return counted ? counted->multiplications / multiply_add_rate(counted->vector) : 0.0;
 }
 
-void run_row(benchmark::State& state, const MakeSubject& make) {
-  const double difference = difference_from_oracle(make);
+void run_row(benchmark::State& state, const Case& of, const MakeSubject& make) {
+  const double difference = difference_from_oracle(of, make);
   if (!(difference <= allowed_difference)) {
     state.SkipWithError("its state after 1000 steps is not the oracle's");
     return;
   }
-  OracleSubject oracle(&native::run_listing), fast_math(&fast_math::run_listing);
+  OracleSubject oracle(of, &native::run_listing), fast_math(of, &fast_math::run_listing);
   const auto subject = make();
-  const std::int64_t batch = batch_for(*subject);
-  std::vector<double> times, ratios, ratios_fast_math, parts;
+  const std::int64_t batch = batch_for(*subject, 2.5e-3);
+  std::vector<double> times, ratios, ratios_fast_math, parts, hand_shakes;
   for (auto turn : state) {
     (void)turn;
     const double native_time = time_step(oracle, oracle_batch);
     const double limit = port_limit(*subject);
+    if (subject->team() > 1) hand_shakes.push_back(hand_shake_time());
     const double time = time_step(*subject, batch);
     const double fast_math_time = time_step(fast_math, oracle_batch);
     times.push_back(time);
@@ -195,45 +231,66 @@ void run_row(benchmark::State& state, const MakeSubject& make) {
     state.SetIterationTime(time);
   }
   const double time = median(times);
+  state.SetLabel(of.name);
   state.counters["ns_per_step"] = 1e9 * time;
-  state.counters["particles_per_s"] = static_cast<double>(problem().initial.size()) / time;
+  state.counters["particles_per_s"] = static_cast<double>(of.problem.initial.size()) / time;
   if (median(parts) > 0.0) state.counters["part_of_port_limit"] = median(parts);
-  state.counters["bonds_per_s"] = static_cast<double>(problem().bonds.bonds()) / time;
+  if (!hand_shakes.empty()) state.counters["hand_shake_ns"] = 1e9 * median(hand_shakes);
+  state.counters["bonds_per_s"] = static_cast<double>(of.problem.bonds.bonds()) / time;
   state.counters["x_oracle_O3"] = median(ratios);
   state.counters["x_oracle_Ofast"] = median(ratios_fast_math);
   state.counters["difference_cm"] = difference;
 }
 
-void add_row(const std::string& name, const MakeSubject& make) {
+void add_row(const std::string& name, const Case& of, const MakeSubject& make) {
   benchmark::RegisterBenchmark(name.c_str(),
-                               [make](benchmark::State& state) { run_row(state, make); })
+                               [&of, make](benchmark::State& state) { run_row(state, of, make); })
       ->UseManualTime()
       ->Iterations(turns)
       ->Unit(benchmark::kMicrosecond);
 }
 
-void add_rows() {
-  const auto oracle = [](RunListing run) {
-    return [run] { return std::make_unique<OracleSubject>(run); };
-  };
-  add_row("oracle -O3 -march=native/threads:1", oracle(&native::run_listing));
-  add_row("oracle -Ofast -march=native/threads:1", oracle(&fast_math::run_listing));
-  add_row("oracle no fma, as verify runs it/threads:1", oracle(&exact::run_listing));
-  for (const VectorTarget target : available_vectors()) {
-    const std::string vector(name_of(target));
-    for (const char* kernel : {"strict", "csr", "ring"}) {
-      for (const int threads : {1, 2}) {
-        add_row(std::string(kernel) + " " + vector + "/threads:" + std::to_string(threads),
-                [=] { return std::make_unique<KernelSubject>(kernel, vector, threads); });
-      }
-    }
-    add_row("mirror " + vector + "/threads:1",
-            [=] { return std::make_unique<KernelSubject>("mirror", vector, 1); });
-    for (const int threads : {1, 2}) {
-      add_row("64 balls ring " + vector + "/threads:" + std::to_string(threads),
-              [=] { return std::make_unique<ManySubject>("ring", vector, 64, threads); });
-    }
+std::string with_threads(const std::string& name, int threads) {
+  return name + "/threads:" + std::to_string(threads);
+}
+
+void add_kernel(const std::string& kernel, const std::string& vector, int threads,
+                const std::string& scene = "example-2") {
+  const Case& of = case_of(scene);
+  const std::string where = scene == "example-2" ? "" : ", " + scene;
+  const PlanRequest request = request_of(kernel, vector, threads);
+  add_row(with_threads(kernel + " " + vector + where, threads), of,
+          [&of, request] { return std::make_unique<KernelSubject>(of, request); });
+}
+
+void add_vector_rows(const std::string& vector) {
+  const Case& of = case_of("example-2");
+  for (const char* kernel : {"strict", "csr", "ring"}) {
+    for (const int threads : {1, 2}) add_kernel(kernel, vector, threads);
   }
+  add_kernel("mirror", vector, 1);
+  for (const int threads : {1, 2}) {
+    add_row(with_threads("64 balls ring " + vector, threads), of, [&of, vector, threads] {
+      return std::make_unique<ManySubject>(of, vector, 64, threads);
+    });
+    add_row(with_threads("64 balls ensemble " + vector, threads), of, [&of, vector, threads] {
+      return std::make_unique<EnsembleSubject>(of, vector, 64, threads);
+    });
+  }
+  add_kernel("ring", vector, 1, "example-5");  // sideways: no symmetry
+}
+
+void add_rows() {
+  const auto add_oracle = [](const std::string& name, RunListing run) {
+    const Case& of = case_of("example-2");
+    add_row(with_threads(name, 1), of,
+            [&of, run] { return std::make_unique<OracleSubject>(of, run); });
+  };
+  add_oracle("oracle -O3 -march=native", &native::run_listing);
+  add_oracle("oracle -Ofast -march=native", &fast_math::run_listing);
+  add_oracle("oracle without fma", &exact::run_listing);
+  for (const VectorTarget target : available_vectors())
+    add_vector_rows(std::string(name_of(target)));
 }
 
 }  // namespace
@@ -245,7 +302,6 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("compiler", origin.compiler);
   benchmark::AddCustomContext("flags", origin.flags);
   benchmark::AddCustomContext("cpu", origin.cpu);
-  benchmark::AddCustomContext("scene", "example-2");
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   bounce::add_rows();

@@ -14,6 +14,7 @@
 #include "driver/files.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/ledger_csv.hpp"
+#include "driver/load_problem.hpp"
 #include "driver/memory_check.hpp"
 #include "driver/monitor_csv.hpp"
 #include "driver/progress.hpp"
@@ -24,6 +25,7 @@
 #include "driver/run_summary.hpp"
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
+#include "driver/step_check.hpp"
 #include "verify/booking_stepper.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
@@ -75,14 +77,21 @@ SceneFile load_scene(const Options& options) {
   return file;
 }
 
-Problem prepare(const SceneFile& file, const Options& options) {
-  std::optional<State> start;
-  if (!options.initial.empty()) start = read_state(options.initial);
-  try {
-    return make_problem(file.scene(), start);
-  } catch (const SceneError& error) {
-    throw file.explain(error);
+// Says before the run how near it is to the edge of stability. Beyond it runs only with --force.
+std::optional<StepCheck> check_before(const SceneFile& file, const Problem& problem,
+                                      const Options& options) {
+  const auto check = check_step(problem);
+  if (!options.force) refuse_unstable_step(file, problem, check);
+  if (options.quiet || !check) return check;
+  fmt::print("{}\n", describe(*check, problem));
+  std::fflush(stdout);
+  if (!(check->part <= part_to_warn_of)) {
+    fmt::print(stderr, "bounce: warning: time.step = {} is {:.2g} of the stable step {:.4g} s{}\n",
+               file.scene().time.step, check->part, check->stable_step,
+               check->part > 1.0 ? "; it is run all the same (--force)"
+                                 : "; in an impact, which presses bonds, it may become unstable");
   }
+  return check;
 }
 
 // BAL4.OUT1 at the first million steps and so on, BAL4.OUT at the end. As in the listing, the end
@@ -107,7 +116,7 @@ void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end
 // null.
 RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
                    Stepper& stepper, const WallBooks* books, const fs::path& folder,
-                   RunFindings& findings) {
+                   RunFindings& findings, MarginGauge& margin) {
   const Schedule schedule(scene, options.listing_frames);
   const auto time = [&scene](std::int64_t step) {
     return static_cast<double>(step) * scene.time.step;
@@ -126,7 +135,7 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   RunHooks hooks;
   hooks.sample = [&](std::int64_t step, const Sample& sample, const State& state) {
     gauges.add(step, sample, state, books);
-    monitor.write(time(step), sample, gauges.last());
+    monitor.write(time(step), sample, gauges.last(), margin.add(step, state));
     if (ledger && step > 0) ledger->write(time(step), gauges.last());
   };
   hooks.frame = [&](std::int64_t step, const State& state) {
@@ -160,6 +169,10 @@ void print_summary(const RunRecord& record, const Options& options) {
   if (!plan.left_out.empty()) fmt::print("left out: {}\n", fmt::join(plan.left_out, ", "));
   fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
              record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
+  if (const auto& margin = record.margin) {
+    const double time = static_cast<double>(margin->step) * record.scene.time.step;
+    fmt::print("greatest part of the stable step used: {}\n", describe(*margin, time));
+  }
   fmt::print("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
   fmt::print("{}", summary_text(record.findings));
   fmt::print("state hash: {:016x}\n", state_hash(result.last));
@@ -196,7 +209,8 @@ int run(const Options& options, const std::string& command_line) {
   record.scene = file.scene();
   record.steps_asked = record.scene.steps_until(record.scene.time.end);
   check_memory(file, options.request.kernel, available_memory());
-  Problem problem = prepare(file, options);
+  Problem problem = load_problem(file, options.initial);
+  record.step_check = check_before(file, problem, options);
   record.particles = problem.initial.size();
   record.bonds = problem.bonds.bonds();
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
@@ -215,8 +229,10 @@ int run(const Options& options, const std::string& command_line) {
   RunDirectory directory(options.directory(), options.force);
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
   catch_interrupts();
-  record.result =
-      simulate(options, record.scene, problem, *stepper, books, directory.path(), record.findings);
+  MarginGauge margin(problem);
+  record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
+                           record.findings, margin);
+  record.margin = margin.result();
   const auto write_last = [&record](OutputFile& out) { write_state_csv(out, record.result.last); };
   write_file_whole(directory.path() / "final.csv", write_last);
   write_text(directory.path() / "run.json", run_json(record));
@@ -246,7 +262,8 @@ void add_options(CLI::App& command, Options& options) {
                    "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
   command.add_flag("--ledger", options.ledger,
                    "Book every reflection at a wall: the same bits, several times slower");
-  command.add_flag("--force", options.force, "Replace results that exist");
+  command.add_flag("--force", options.force,
+                   "Replace results that exist, and run a time step beyond the stable one");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 

@@ -13,12 +13,12 @@ namespace bounce {
 /// One row a sample. t in s; energies as differences from their values at the start (run.json has
 /// those), so that no digits are lost; momenta, centre of mass and lowest point in cgs; smallest
 /// R/R0 of any bond; number of particles on a wall. Since the start, as the ledger has them: energy
-/// from the walls, drift, and the walls' impulse.
+/// from the walls, drift, and the walls' impulse. Last, time step / stable step (MarginGauge::add).
 class MonitorCsv {
  public:
   explicit MonitorCsv(const std::filesystem::path& path);
   /// The first sample written is the start.
-  void write(double time, const Sample& sample, const LedgerInterval& interval);
+  void write(double time, const Sample& sample, const LedgerInterval& interval, double stable_part);
   void close() { file_.close(); }
 
  private:

@@ -1,5 +1,7 @@
 #include "driver/run_record.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -39,6 +41,29 @@ Json trouble_json(const RunResult& result, const Scene& scene) {
   const Trouble& trouble = *result.trouble;
   if (trouble.particle >= 0) json["particle"] = trouble.particle + 1;
   if (trouble.bond_first >= 0) json["bond"] = {trouble.bond_first + 1, trouble.bond_second + 1};
+  return json;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+// How far from the edge of stability; null where a stiffness is not finite.
+Json stability_json(const RunRecord& record) {
+  Json json{{"omega_max", Json()}, {"stable_step", Json()}, {"part", Json()}};
+  if (const auto& check = record.step_check) {
+    json = {{"omega_max", check->fastest.omega},
+            {"omega_max_from", check->fastest.exact ? "lanczos" : "bound"},
+            {"stable_step", number(check->stable_step)},
+            {"part", check->part}};
+  }
+  if (const auto& margin = record.margin) {
+    json["greatest_part"] = {{"part", margin->part},
+                             {"from", margin->exact ? "lanczos" : "bound"},
+                             {"at_most", number(margin->at_most)},
+                             {"step", margin->step},
+                             {"time", static_cast<double>(margin->step) * record.scene.time.step},
+                             {"bond", {margin->first + 1, margin->second + 1}},
+                             {"ratio", margin->ratio}};
+  }
   return json;
 }
 
@@ -98,6 +123,7 @@ std::string run_json(const RunRecord& record) {
   json["bonds"] = record.bonds;
   json["method"] = record.scene.time.method;
   json["plan"] = plan_json(record.plan);
+  json["stability"] = stability_json(record);
   json["energies_at_start"] = energies_json(result.start);
   json["bounce"] = bounce_json(record.findings);
   json["ledger"] = ledger_json(record.findings);

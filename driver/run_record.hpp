@@ -5,6 +5,7 @@
 
 #include "driver/run_gauges.hpp"
 #include "driver/run_loop.hpp"
+#include "driver/step_check.hpp"
 #include "kernels/model/scene.hpp"
 #include "kernels/stepping/plan.hpp"
 
@@ -21,6 +22,8 @@ struct RunRecord {
   std::int64_t steps_asked = 0;
   RunResult result;
   RunFindings findings;
+  std::optional<StepCheck> step_check;  ///< at the start; nothing: no finite stiffness there
+  std::optional<Margin> margin;         ///< of the states of monitor.csv's rows
 };
 
 /// "complete", "interrupted" or "unstable".

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The throughput benchmark on 2 cores: results/throughput.json (raw, with its origin) and
-# results/throughput.md (the table), which goes into README, too. From a clean tree only, on an otherwise idle machine.
+# results/throughput.md (the table), and what leaving out saves: results/left_out.json and .md. Both
+# tables go into README, too. From a clean tree only, on an otherwise idle machine.
 #   scripts/bench.sh [--out DIR] [--allow-dirty] [-- BENCHMARK_OPTIONS]
 #   scripts/bench.sh --compare A B    two such results, or two commits: faster, slower, not told apart
 set -euo pipefail
@@ -19,7 +20,7 @@ while [ $# -gt 0 ]; do
       exec "$script" "$@"
       ;;
     --) shift; break ;;
-    -h|--help) sed -n '2,5s/^# \?//p' "$0"; exit 0 ;;
+    -h|--help) sed -n '2,6s/^# \?//p' "$0"; exit 0 ;;
     *) echo "bench.sh: unknown option $1 (--out DIR, --allow-dirty, --compare A B, -- BENCHMARK_OPTIONS)" >&2; exit 2 ;;
   esac
 done
@@ -30,15 +31,22 @@ fi
 
 scripts/install.sh
 scripts/build.sh release bounce_bench
+scripts/build.sh release bounce_left_out
 
 mkdir -p "$out"
-# Threads stay on their cores and spin between regions.
-OMP_PROC_BIND=close OMP_PLACES=cores OMP_WAIT_POLICY=active \
-  build/release/bounce_bench --benchmark_out="$out/.throughput.json" \
-  --benchmark_out_format=json --benchmark_repetitions=15 \
-  --benchmark_enable_random_interleaving=true "$@"
-/usr/bin/python3 scripts/bench_table.py "$out/.throughput.json" > "$out/.throughput.md"
-mv "$out/.throughput.json" "$out/throughput.json"
-mv "$out/.throughput.md" "$out/throughput.md"
+# measure NAME PROGRAM TABLE OPTION...: results NAME.json and NAME.md, whole or not at all.
+measure() {
+  local name=$1 program=$2 table=$3
+  shift 3
+  # Threads stay on their cores and spin between regions.
+  OMP_PROC_BIND=close OMP_PLACES=cores OMP_WAIT_POLICY=active \
+    "build/release/$program" --benchmark_out="$out/.$name.json" --benchmark_out_format=json \
+    --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true "$@"
+  "scripts/$table" "$out/.$name.json" > "$out/.$name.md"
+  mv "$out/.$name.json" "$out/$name.json"
+  mv "$out/.$name.md" "$out/$name.md"
+}
+measure throughput bounce_bench bench_table.py "$@"
+measure left_out bounce_left_out left_out_table.py "$@"
 if [ "$out" = results ]; then scripts/update_readme.py; fi
-echo "bench.sh: $out/throughput.json and $out/throughput.md"
+echo "bench.sh: $out/throughput.{json,md}, $out/left_out.{json,md}"

@@ -34,16 +34,20 @@ def rows(runs):
         name, _, rest = run["run_name"].partition("/threads:")
         threads = rest.split("/")[0]
         limit = run.get("part_of_port_limit")
+        name = name.partition(", ")[0]
+        scene = run.get("label", "")
         if run.get("error_occurred"):
-            yield [name, threads, "ERROR: " + run["error_message"], "", "", "", "", "", ""]
+            yield [name, scene, threads, "ERROR: " + run["error_message"], *[""] * 7]
             continue
         yield [
             name,
+            scene,
             threads,
             cell(run.get("ns_per_step"), ".0f"),
             cell(run.get("particles_per_s", math.nan) / 1e6, ".0f"),
             cell(run.get("bonds_per_s", math.nan) / 1e6, ".0f"),
             cell(limit, ".0%"),
+            cell(run.get("hand_shake_ns"), ".0f"),
             cell(run.get("x_oracle_O3"), ".2f"),
             cell(run.get("x_oracle_Ofast"), ".2f"),
             cell(run.get("difference_cm"), ".1e"),
@@ -57,15 +61,16 @@ def main():
         data = json.load(file)
     context = data["context"]
     repetitions = max((run.get("repetitions", 1) for run in data["benchmarks"]), default=1)
-    print("# Throughput, Example 2, double precision\n")
+    print("# Throughput, double precision\n")
     print(f"Per step of one ball; medians of {repetitions} repetitions, all rows' in random order, of 7 turns each. × is the")
     print("ratio to the scalar oracle compiled with the flags named, made turn by turn; times swing with the clock.")
     print("Port limit: the part reached of the multiply-add rate measured in the same turn, for kernels whose")
     print("operations are counted; particle-steps and bonds are the whole ball's, also where half is stepped.")
+    print("Hand-shake: from one core to the other and back, for threads that share a ball, in the same turns.")
     print("The last column is the largest difference from the oracle's positions after 1000 steps.\n")
-    print("| row | threads | ns/step | 10^6 particle-steps/s | 10^6 bonds/s | port limit | × oracle -O3 | "
+    print("| row | scene | threads | ns/step | 10^6 particle-steps/s | 10^6 bonds/s | port limit | hand-shake, ns | × oracle -O3 | "
           "× oracle -Ofast | difference, cm |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("|" + " --- |" * 11)
     for row in rows(data["benchmarks"]):
         print("| " + " | ".join(row) + " |")
     print(f"\nMade by `scripts/bench.sh` at commit {context['commit']}, {context['date']}, on "

@@ -87,13 +87,13 @@ def draw(context, rows):
     base = rows.get((360, 1))
     if base:
         axes.axhline(TARGET * base["ns_per_particle_step"], color=drawing.GREY, zorder=0)
-        axes.annotate(f"{TARGET} × the paper's ball by one thread", (0.99, TARGET * base["ns_per_particle_step"]),
-                      xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=7.5, color="#5a6068")
+        axes.annotate(f"{TARGET} × the paper's ball by one thread", (0.01, TARGET * base["ns_per_particle_step"]),
+                      xycoords=("axes fraction", "data"), ha="left", va="bottom", fontsize=7.5, color="#5a6068")
     axes.set_xscale("log")
-    axes.set_ylim(bottom=0.0)
+    axes.set_yscale("log")
     axes.set_xlabel("particles")
     axes.set_ylabel("ns a particle-step")
-    axes.grid(color="#e6e8eb", linewidth=0.6)
+    axes.grid(color="#e6e8eb", linewidth=0.6, which="both")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     axes.legend(frameon=False, fontsize=8)

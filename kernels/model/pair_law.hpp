@@ -1,4 +1,5 @@
-// The law of a bond, -G/R^p + H/R^q (paper, equation 1): force and potential, side by side.
+// The law of a bond, -G/R^p + H/R^q (paper, equation 1): force, potential and stiffness, side by
+// side.
 #pragma once
 
 namespace bounce {
@@ -22,5 +23,16 @@ double force_over_distance(PairLaw law, const BondClass& bond, double r2);
 
 /// Potential V(R), with F = -dV/dR: zero at infinity (p > 1), a logarithm for p = 1 or q = 1.
 double potential(PairLaw law, const BondClass& bond, double r2);
+
+/// Second derivatives of V at a distance R, g/s^2: V''(R) = q H/R^(q+1) - p G/R^(p+1) along the
+/// bond, V'(R)/R = -F(R)/R across it. With the unit vector e of the bond, the second derivative of
+/// V by x_i - x_j is the matrix along e e^T + across (1 - e e^T).
+struct Stiffness {
+  double along = 0.0;
+  double across = 0.0;
+};
+
+/// The stiffness at the squared distance r2 > 0 (cm^2).
+Stiffness stiffness(PairLaw law, const BondClass& bond, double r2);
 
 }  // namespace bounce

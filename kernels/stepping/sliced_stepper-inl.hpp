@@ -20,6 +20,7 @@
 #include <hwy/highway.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -74,11 +75,13 @@ HWY_INLINE void load_neighbours(D d, const SlicedBonds& bonds, const SliceEntry&
 
 /// Physics: constructed from the problem; `slice(table, bonds, slice, at, x, y, store, nx, ny)`
 /// moves the particles from `at` on, reading all positions in x, y and writing their new ones to
-/// nx, ny.
+/// nx, ny; `mirror_at_walls(at, vectors, store, nx, ny)` follows after some slices, so that nothing
+/// need be called among them.
 template <class Physics>
 class SlicedStepper final : public StagedStepper {
   using D = typename Physics::D;
   static constexpr size_t L = hn::MaxLanes(D());
+  static constexpr size_t chunk = 64;  // slices; what they moved is in L1 when walls are looked at
 
  public:
   SlicedStepper(const Problem& start, int threads)
@@ -133,10 +136,16 @@ class SlicedStepper final : public StagedStepper {
                        size_t end) {
     const CombinationTable& table = tables[static_cast<size_t>(n) % tables.size()];
     const int from = store_.current ^ static_cast<int>(n & 1);
-    for (size_t s = begin; s < end; ++s) {
-      physics_.slice(table, bonds_, bonds_.slices[s], s * L, store_.x[from].data(),
-                     store_.y[from].data(), store_, store_.x[from ^ 1].data(),
-                     store_.y[from ^ 1].data());
+    const double* x = store_.x[from].data();
+    const double* y = store_.y[from].data();
+    double* new_x = store_.x[from ^ 1].data();
+    double* new_y = store_.y[from ^ 1].data();
+    for (size_t s = begin; s < end; s += chunk) {
+      const size_t chunk_end = std::min(s + chunk, end);
+      for (size_t i = s; i < chunk_end; ++i) {
+        physics_.slice(table, bonds_, bonds_.slices[i], i * L, x, y, store_, new_x, new_y);
+      }
+      physics_.mirror_at_walls(s * L, chunk_end - s, store_, new_x, new_y);
     }
   }
 

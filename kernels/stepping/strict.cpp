@@ -76,6 +76,9 @@ class StrictPhysics {
     hn::Store(p.y, d, new_y + at);
   }
 
+  /// slice() has done so, as the listing does.
+  static void mirror_at_walls(size_t, size_t, ParticleStore&, double*, double*) {}
+
  private:
   using V = hn::Vec<D>;
   static constexpr D d{};

@@ -41,6 +41,7 @@ double peak_of_run(const fs::path& folder, const std::string& kernel) {
     words.push_back(setting);
   }
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const pid_t child = fork();

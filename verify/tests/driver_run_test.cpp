@@ -159,7 +159,8 @@ TEST_F(DriverRunTest, ARunTellsItsBounceAndItsLedgers) {
     EXPECT_NE(json.find(word), std::string::npos) << word << " not in: " << json;
   }
   const std::string monitor = contents(folder_ / "r/monitor.csv");
-  EXPECT_NE(monitor.find(",on_wall,walls,drift,impulse_x,impulse_y\n"), std::string::npos);
+  EXPECT_NE(monitor.find(",on_wall,walls,drift,impulse_x,impulse_y,stable_part\n"),
+            std::string::npos);
 }
 
 TEST_F(DriverRunTest, BookingEveryReflectionChangesNoBit) {
@@ -177,10 +178,15 @@ TEST_F(DriverRunTest, BookingEveryReflectionChangesNoBit) {
 }
 
 TEST_F(DriverRunTest, AnUnstableRunWithBooksEndsAsWithout) {
-  const Words words{"run",   "example-2",
-                    "--set", "time.step=3.9e-4",
-                    "--set", "time.method=leapfrog",
-                    "--set", "output.monitor_every=1"};
+  const Words words{"run",
+                    "example-2",
+                    "--force",
+                    "--set",
+                    "time.step=3.9e-4",
+                    "--set",
+                    "time.method=leapfrog",
+                    "--set",
+                    "output.monitor_every=1"};
   Words plain = words, booked = words;
   plain.insert(plain.end(), {"--out", "r"});
   booked.insert(booked.end(), {"--ledger", "--out", "s"});
@@ -367,11 +373,11 @@ TEST_F(DriverRunTest, ListingFramesComeEachMillionSteps) {
 }
 
 TEST_F(DriverRunTest, AnUnstableRunExitsWith3AndKeepsTheLastGoodState) {
-  const Words words{"run",   "example-2",
-                    "--set", "time.step=3.9e-4",
-                    "--set", "time.method=leapfrog",
-                    "--set", "output.monitor_every=1",
-                    "--out"};
+  const Words words{"run",     "example-2",
+                    "--set",   "time.step=3.9e-4",
+                    "--set",   "time.method=leapfrog",
+                    "--set",   "output.monitor_every=1",
+                    "--force", "--out"};
   Words first = words;
   first.push_back("r");
   ASSERT_EQ(run(first), 3) << err();
@@ -395,6 +401,113 @@ TEST_F(DriverRunTest, AnUnstableRunExitsWith3AndKeepsTheLastGoodState) {
   Words to_bad = words;
   to_bad.insert(to_bad.end(), {"t", "--steps", std::to_string(good + 1)});
   EXPECT_EQ(run(to_bad), 3);
+}
+
+// Example 2 at its start: omega_max = 5221 1/s, stable step 3.83e-4 s.
+TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
+  const auto words = [](const std::string& step, Words more) {
+    Words all{"run",   "example-2",        "--steps", "20", "--set", "output.monitor_every=1",
+              "--set", "time.step=" + step};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  EXPECT_EQ(run(words("3.9e-4", {"--set", "time.method=leapfrog"})), 2);
+  for (const char* part : {"--set: time.step = 0.00039: allowed is at most 0.0003831 s",
+                           "method leapfrog", "omega_max = 5221 1/s", "--force"}) {
+    EXPECT_NE(err().find(part), std::string::npos) << part << " not in: " << err();
+  }
+  EXPECT_EQ(names(), Words{});
+  // Just within: warned of, and run. Below one half: nothing on stderr.
+  ASSERT_EQ(run(words("3.8e-4", {"--out", "a"})), 0) << err();
+  EXPECT_NE(err().find("warning: time.step = 0.00038 is 0.99 of the stable step"),
+            std::string::npos)
+      << err();
+  ASSERT_EQ(run(words("3.8e-4", {"--out", "b", "--quiet"})), 0);
+  EXPECT_EQ(out() + err(), "");
+  ASSERT_EQ(run(words("1.9e-4", {"--out", "c"})), 0);
+  EXPECT_EQ(err(), "");
+  // Beyond, with --force: told of, run, and kept. It takes more than 20 steps to become unstable.
+  ASSERT_EQ(run(words("3.84e-4", {"--force", "--out", "d"})), 0) << err();
+  EXPECT_NE(err().find("is 1 of the stable step 0.0003831 s; it is run all the same (--force)"),
+            std::string::npos)
+      << err();
+}
+
+TEST_F(DriverRunTest, ARunTellsItsPartOfTheStableStep) {
+  ASSERT_EQ(run({"run", "example-2", "--steps", "20000", "--out", "r"}), 0) << err();
+  EXPECT_NE(out().find("time step: 0.0026 of the stable step of listing at the start, 0.0003831 s"),
+            std::string::npos)
+      << out();
+  EXPECT_NE(out().find("greatest part of the stable step used: 0.00261 at t = "), std::string::npos)
+      << out();
+  const std::string json = contents(folder_ / "r/run.json");
+  for (const char* part :
+       {"\"stability\": {\n    \"omega_max\": 5221.1757", "\"omega_max_from\": \"lanczos\"",
+        "\"stable_step\": 0.00038305", "\"part\": 0.0026105", "\"greatest_part\": {",
+        "\"at_most\": 0.0026", "\"bond\": ["}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part << " not in: " << json;
+  }
+  // The last column of monitor.csv: the part by the bound, a little more.
+  std::istringstream monitor(contents(folder_ / "r/monitor.csv"));
+  std::string row;
+  std::getline(monitor, row);
+  EXPECT_EQ(row.substr(row.rfind(',')), ",stable_part");
+  int rows = 0;
+  for (; std::getline(monitor, row); ++rows) {
+    const double part = std::stod(row.substr(row.rfind(',') + 1));
+    EXPECT_TRUE(part >= 0.002610 && part <= 0.002620) << row;
+  }
+  EXPECT_EQ(rows, 3);
+}
+
+TEST_F(DriverRunTest, StabilityIsPredicted) {
+  ASSERT_EQ(run({"stability", "example-2", "--predict"}), 0) << err();
+  for (const char* part : {"omega_max: 5221.1758 1/s", "leapfrog", "0.000383055",
+                           "0.00261 of the stable step of listing"}) {
+    EXPECT_NE(out().find(part), std::string::npos) << part << " not in: " << out();
+  }
+  // A hundred times the elasticity: ten times the frequency.
+  ASSERT_EQ(run({"stability", "example-2", "--predict", "--json", "--set", "law.elasticity=1.6e6",
+                 "--set", "time.method=leapfrog"}),
+            0)
+      << err();
+  const fs::path json = folder_ / "stdout";
+  EXPECT_NEAR(std::stod(entry(json, "omega_max")), 52211.76, 0.01);
+  EXPECT_EQ(entry(json, "omega_max_from"), "\"lanczos\"");
+  EXPECT_EQ(entry(json, "method"), "\"leapfrog\"");
+  EXPECT_NEAR(std::stod(entry(json, "part")), 0.0261059, 1e-7);
+  EXPECT_NE(out().find("\"stable_step\": {\n    \"listing\": 3.8305"), std::string::npos) << out();
+  EXPECT_NE(out().find("\"leapfrog\": 3.8305"), std::string::npos) << out();
+  EXPECT_EQ(out().substr(0, 2) + out().substr(out().size() - 3), "{\n\n}\n");  // nothing else
+  // From a state: its own, the same to all digits.
+  ASSERT_EQ(run({"run", "example-2", "--steps", "10", "--final-state", "s.csv", "--quiet"}), 0);
+  ASSERT_EQ(run({"stability", "example-2", "--predict", "--json", "--initial", "s.csv"}), 0);
+  EXPECT_EQ(entry(json, "initial"), "\"s.csv\"");
+  EXPECT_NEAR(std::stod(entry(json, "omega_max")), 5221.1757, 1e-3);
+  // Two particles in one place have no stable step, neither here nor in a run.
+  std::istringstream rows(contents(folder_ / "s.csv"));
+  std::ofstream bad(folder_ / "bad.csv");
+  std::string row, before;
+  for (int n = 0; std::getline(rows, row); ++n) {
+    if (n == 2) row.replace(1, std::string::npos, before, 1);  // particle 2 where particle 1 is
+    bad << row << '\n';
+    before = row;
+  }
+  bad.close();
+  for (const char* word : {"stability", "run"}) {
+    Words words{word, "example-2", "--initial", "bad.csv"};
+    const Words more = words[0] == "run" ? Words{"--out", "bad"} : Words{"--predict"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words), 2) << out();
+    EXPECT_NE(err().find("bad.csv: initial state = a bond without a finite stiffness"),
+              std::string::npos)
+        << err();
+  }
+  EXPECT_EQ(run({"stability"}), 2);
+  EXPECT_EQ(run({"stability", "example-22", "--predict"}), 2);
+  EXPECT_EQ(run({"stability", "example-2", "--predict", "--set", "law.q=1"}), 2);
+  EXPECT_EQ(run({"stability", "example-2"}), 2);
+  EXPECT_NE(err().find("--predict is required"), std::string::npos) << err();
 }
 
 TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {

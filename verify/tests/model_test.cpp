@@ -298,6 +298,30 @@ TEST_P(PairLawTest, RestIsRestAndTheLawIsThePapers) {
   EXPECT_LT(force_over_distance(law, b, 0.09), 0.0);
 }
 
+double force_at(double r, void* at) {
+  const auto* law_at = static_cast<const LawAt*>(at);
+  return force_over_distance(law_at->law, law_at->bond, r * r) * r;
+}
+
+TEST_P(PairLawTest, StiffnessIsMinusTheSlopeOfTheForce) {
+  LawAt at{GetParam(), bond(GetParam())};
+  const gsl_function function{&force_at, &at};
+  for (const double r : {0.13, 0.2, 0.26, 0.3, 0.5, 1.0, 3.0}) {
+    double slope = 0.0;
+    double error = 0.0;
+    ASSERT_EQ(gsl_deriv_central(&function, r, 1e-4 * r, &slope, &error), 0);
+    const Stiffness found = stiffness(at.law, at.bond, r * r);
+    const double scale = at.bond.attraction / std::pow(r, at.law.p + 1.0);
+    EXPECT_NEAR(found.along, -slope, 1e-8 * scale + 2.0 * error) << "R = " << r;
+    EXPECT_LE(error, 1e-6 * scale + 1e-6 * std::abs(slope)) << "the slope is too rough to judge by";
+    EXPECT_EQ(found.across, -force_over_distance(at.law, at.bond, r * r)) << "R = " << r;
+  }
+  const double rest = at.bond.rest;  // there V'' = (q - p) G / R0^(p+1)
+  const double expected =
+      (at.law.q - at.law.p) * at.bond.attraction / std::pow(rest, at.law.p + 1.0);
+  EXPECT_NEAR(stiffness(at.law, at.bond, rest * rest).along, expected, 1e-12 * expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(Exponents, PairLawTest,
                          testing::Values(PairLaw{3, 5}, PairLaw{7, 13}, PairLaw{2, 4},
                                          PairLaw{1, 3}, PairLaw{2.5, 4.5}, PairLaw{0.5, 1},

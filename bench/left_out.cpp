@@ -1,0 +1,118 @@
+// What leaving out saves: pairs of plans for nearly the same scene, one of which has code that the
+// other does without, in free flight on Example 2.
+//
+// Each repetition takes turns of 200 steps of the one and 200 of the other, so that a clock that
+// swings hits both; the gain is the median of their ratios. A pair of the same plan twice says what
+// cannot be told from nothing.
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/timing.hpp"
+#include "driver/origin.hpp"
+#include "driver/scene_file.hpp"
+#include "kernels/stepping/plan.hpp"
+
+namespace bounce {
+namespace {
+
+constexpr int turns = 401;
+constexpr std::int64_t steps_a_turn = 200;
+
+using Change = std::function<void(Scene&)>;
+
+std::unique_ptr<Stepper> stepper_of(const std::string& kernel, const Change& change) {
+  Scene scene = SceneFile::find("example-2").scene();
+  change(scene);
+  const Problem problem = make_problem(scene);
+  PlanRequest request;
+  request.kernel = kernel;
+  request.threads = 1;
+  return make_stepper(problem, make_plan(problem, request));
+}
+
+struct Side {
+  std::string kernel;
+  Change change;
+};
+
+// `with` has what `without` leaves out.
+void add_pair(const std::string& name, const Side& with, const Side& without) {
+  const auto run = [with, without](benchmark::State& state) {
+    const auto a = stepper_of(with.kernel, with.change);
+    const auto b = stepper_of(without.kernel, without.change);
+    std::vector<double> ratios;
+    for (auto turn : state) {
+      (void)turn;
+      const double with_it = seconds_of(*a, steps_a_turn);
+      const double without_it = seconds_of(*b, steps_a_turn);
+      ratios.push_back(with_it / without_it);
+      state.SetIterationTime(with_it + without_it);
+    }
+    state.counters["gain"] = median(ratios);
+  };
+  benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Iterations(turns);
+}
+
+void as_it_is(Scene&) {}
+void no_wall(Scene& scene) { scene.walls.clear(); }
+void no_gravity(Scene& scene) { scene.gravity = {}; }
+// The floor as a wall that might have any direction: its normal is off by less than a bit of y.
+void any_direction(Scene& scene) { scene.walls.front().normal.x = 1e-17; }
+void two_walls(Scene& scene) { scene.walls.push_back({{0.0, -1.0}, -1000.0, 0.0, 0.0}); }
+void slippery(Scene& scene) {
+  scene.walls.front().alpha = 1.0;
+  scene.walls.front().beta = -1.0;
+}
+
+Change law(double p, double q) {
+  return [p, q](Scene& scene) {
+    scene.law.p = p;
+    scene.law.q = q;
+    scene.law.rest = Rest::geometry;
+  };
+}
+
+void add_pairs() {
+  const Side ring{"ring", as_it_is}, csr{"csr", as_it_is};
+  add_pair("nothing (ring against itself)", ring, ring);
+  add_pair("the wall test, in ring", ring, {"ring", no_wall});
+  add_pair("the wall test, in mirror", {"mirror", as_it_is}, {"mirror", no_wall});
+  add_pair("the wall test, in csr", csr, {"csr", no_wall});
+  add_pair("walls in other directions than up, in ring", {"ring", any_direction}, ring);
+  add_pair("a second wall, in ring", {"ring", two_walls}, ring);
+  add_pair("friction and restitution of the wall, in ring", {"ring", slippery}, ring);
+  add_pair("gravity, in ring", ring, {"ring", no_gravity});
+  add_pair("a square root: exponents (2, 4) for (3, 5), in ring", {"ring", law(2, 4)}, ring);
+  add_pair("higher powers: (7, 13) for (3, 5), in ring", {"ring", law(7, 13)}, ring);
+  add_pair("variable exponents: odd (3, 7) for (3, 5), in csr", {"csr", law(3, 7)}, csr);
+  add_pair("pow: (2.5, 4.5) for (3, 5), in csr", {"csr", law(2.5, 4.5)}, csr);
+  add_pair("neighbour index, gathers, each bond twice: csr for ring", csr, ring);
+  add_pair("the other half of the ball: ring for mirror", ring, {"mirror", as_it_is});
+  const Change all = [](Scene& scene) {
+    law(2.5, 4.5)(scene);
+    any_direction(scene);
+  };
+  add_pair("all of it: csr, pow, any wall for mirror without a wall", {"csr", all},
+           {"mirror", no_wall});
+}
+
+}  // namespace
+}  // namespace bounce
+
+int main(int argc, char** argv) {
+  const bounce::Origin origin = bounce::find_origin();
+  benchmark::AddCustomContext("commit", origin.commit);
+  benchmark::AddCustomContext("compiler", origin.compiler);
+  benchmark::AddCustomContext("flags", origin.flags);
+  benchmark::AddCustomContext("cpu", origin.cpu);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  bounce::add_pairs();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,0 +1,36 @@
+// How large a step a method bears, from its stage table alone.
+//
+// A vibration of angular frequency w is the oscillator x'' = -w^2 x. In x and v/w a stage (b, c) of
+// a method does to it, with z = w dt,
+//
+//   kick   v/w -= b z x,        drift   x += c z v/w,
+//
+// and a step is the product M(z) of these matrices. Its determinant is 1, so the two eigenvalues of
+// M multiply to 1: while |trace M|/2 < 1 they lie on the unit circle and nothing grows, beyond it
+// one of them is larger than 1. Every other part of the motion of a ball, at one state, is a sum of
+// such vibrations.
+#pragma once
+
+#include <span>
+
+#include "kernels/stepping/method.hpp"
+
+namespace bounce {
+
+/// |trace M(z)|/2 of a step of these stages.
+double half_trace(std::span<const Stage> stages, double z);
+
+/// The largest z for which a step is stable at every smaller z > 0: where |trace M|/2 first passes
+/// 1. A point where it touches 1 and turns back is no edge. 0 for a table that is unstable from the
+/// start or has a number that is not finite; infinity for one that is stable beyond twice the
+/// number of its stages, which no consistent method is: trace M/2 = 1 - z^2/2 + ... is a polynomial
+/// of degree s, at most the number of stages, in z^2, and such a one with this slope at 0 cannot
+/// stay within -1 and 1 beyond z = 2 s (Markov's inequality; Chebyshev's T_s(1 - z^2/(2 s^2))
+/// does).
+double stability_limit(std::span<const Stage> stages);
+double stability_limit(const Method& method);
+
+/// The largest stable step (s) for vibrations up to `omega` (1/s); infinity for omega = 0.
+double stable_step(const Method& method, double omega);
+
+}  // namespace bounce
