@@ -48,7 +48,7 @@ struct BallSpec {
   BallKind kind = BallKind::rings;
   std::vector<double> radii{5.0, 6.0, 7.0};  ///< cm, increasing; of a disc its one radius
   std::int64_t per_ring = 120;
-  std::optional<double> spacing;  ///< cm, of a disc's lattice
+  std::optional<double> spacing{};  ///< cm, of a disc's lattice
   Vec2 centre{0.0, 10.0};         ///< cm
   Vec2 velocity{};                ///< cm/s, of every particle
   Rounding rounding = Rounding::listing;

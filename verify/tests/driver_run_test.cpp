@@ -206,7 +206,10 @@ double number(const std::string& json, const std::string& key) {
 }
 
 TEST_F(DriverRunTest, ADiscFallsAndBounces) {
-  ASSERT_EQ(run({"run", "disc", "--set", "ball.spacing=0.5", "--out", "r"}), 0) << err();
+  ASSERT_EQ(run({"run", "disc", "--set", "ball.spacing=0.5", "--set", "law.elasticity=5000",
+                 "--out", "r"}),
+            0)
+      << err();
   const std::string json = contents(folder_ / "r/run.json");
   EXPECT_NE(json.find("\"kernel\": \"csr\""), std::string::npos) << json;
   EXPECT_EQ(number(json, "particles"), 517.0);

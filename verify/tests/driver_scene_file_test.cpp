@@ -72,8 +72,11 @@ Scene unusual_scene() {
   Scene scene;
   scene.title = "\n \"quoted\" 'single' \\ \t tab, \x01, \x7f, caf\xc3\xa9 = # [x]";
   scene.constants = Constants::double_precision;
-  scene.ball = {
-      {1.0 / 3.0, 5e-1, 7.000000000000001}, 77, {-0.1, 1e2 / 3}, {-4e-3, 2.0}, Rounding::none};
+  scene.ball = {.radii = {1.0 / 3.0, 5e-1, 7.000000000000001},
+                .per_ring = 77,
+                .centre = {-0.1, 1e2 / 3},
+                .velocity = {-4e-3, 2.0},
+                .rounding = Rounding::none};
   scene.law = {0.1 + 0.2, 17.3, 123456789.12345678, Rest::geometry};
   scene.gravity = {1e-300, -0.0};
   scene.walls = {{{0.6, 0.8}, -1.0 / 7.0, 1.0 / 9.0, -1.0 / 11.0}, {{1.0, 0.0}, -1e20, 0.25, -1.0}};
