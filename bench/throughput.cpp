@@ -268,7 +268,8 @@ void add_vector_rows(const std::string& vector) {
   for (const char* kernel : {"strict", "csr", "ring"}) {
     for (const int threads : {1, 2}) add_kernel(kernel, vector, threads);
   }
-  add_kernel("mirror", vector, 1);
+  for (const int threads : {1, 2}) add_kernel("mirror", vector, threads);
+  for (const int threads : {1, 2}) add_kernel("mirror", vector, threads, "example-1");
   for (const int threads : {1, 2}) {
     add_row(with_threads("64 balls ring " + vector, threads), of, [&of, vector, threads] {
       return std::make_unique<ManySubject>(of, vector, 64, threads);

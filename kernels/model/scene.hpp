@@ -49,8 +49,8 @@ struct BallSpec {
   std::vector<double> radii{5.0, 6.0, 7.0};  ///< cm, increasing; of a disc its one radius
   std::int64_t per_ring = 120;
   std::optional<double> spacing{};  ///< cm, of a disc's lattice
-  Vec2 centre{0.0, 10.0};         ///< cm
-  Vec2 velocity{};                ///< cm/s, of every particle
+  Vec2 centre{0.0, 10.0};           ///< cm
+  Vec2 velocity{};                  ///< cm/s, of every particle
   Rounding rounding = Rounding::listing;
 };
 

@@ -5,8 +5,8 @@
 //     row; two neighbours (0 and 1, 2 and 3, ...) share one division. Both depend on the row alone,
 //     so vector width and threads do not change a bit.
 //  2. A lane without a neighbour that others have takes part with R^2 = 1 and constants 0, which
-//     adds a zero. The 0.0 added to the new velocity makes every zero a positive one, so that such a
-//     zero cannot show in the bits either.
+//     adds a zero. The 0.0 added to the new velocity makes every zero a positive one, so that such
+//     a zero cannot show in the bits either.
 //  3. Nothing is called among the slices but for ragged ones: walls are looked at after a chunk of
 //     them. A call in the loop, hardly ever taken, made the compiler keep everything in memory
 //     around it; without one a step takes 0.8 of the time.

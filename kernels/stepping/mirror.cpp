@@ -16,10 +16,10 @@ namespace HWY_NAMESPACE {
 using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
-                                     std::int64_t sum) {
+                                     std::int64_t sum, int threads) {
   return with_ring_form(law_form(problem.law), shape.rings, [&]<class Law, int R>() {
     return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
-      return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum);
+      return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum, threads);
     });
   });
 }
@@ -33,20 +33,25 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
+constexpr std::int64_t fewest_columns = 3;  // of a thread: RingTeam<Columns, MirrorHalf> says so
+
 std::string prepare_mirror(const Problem& problem, const PlanRequest& request, Plan& plan) {
   const RingForm form = find_ring_form(problem);
   if (!form.refusal.empty()) return form.refusal;
   const MirrorAxis axis = find_mirror_axis(problem, form.shape);
   if (!axis.refusal.empty()) return "it is not left-right symmetric: " + axis.refusal;
-  if (request.threads > 1) return "the half ball runs on one thread";
   plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   const std::int64_t half = form.shape.per_ring / 2;
   if (half < std::int64_t{2} * plan.lanes) {
     return std::to_string(half) + " columns of half a ball are less than two a lane";
   }
-  plan.threads = 1;
-  plan.multiplications =
-      ring_multiplications(problem, form.shape.rings, (half + plan.lanes - 1) / plan.lanes);
+  const std::int64_t columns = (half + plan.lanes - 1) / plan.lanes;
+  plan.threads = team_size(request.threads, columns);
+  if (plan.threads > 1 && columns + 1 < fewest_columns * plan.threads) {
+    return std::to_string(plan.threads) + " threads are too many for " +
+           std::to_string(columns + 1) + " columns of vectors: a thread needs three";
+  }
+  plan.multiplications = ring_multiplications(problem, form.shape.rings, columns);
   plan.reasons.emplace_back(
       "the ball, its walls and gravity are left-right symmetric: half of it "
       "is stepped, each bond once, no index, " +
@@ -60,8 +65,8 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
   const RingForm form = find_ring_form(problem);
   const std::int64_t sum = find_mirror_axis(problem, form.shape).sum;
-  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum)
-                         : N_AVX2::make_mirror(problem, form.shape, sum);
+  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum, plan.threads)
+                         : N_AVX2::make_mirror(problem, form.shape, sum, plan.threads);
 }
 
 }  // namespace

@@ -41,9 +41,8 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
   if (plan.lanes == 0) {
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
   }
-  const bool large = problem.initial.size() >= particles_worth_a_team;
-  plan.threads = request.threads != 0 ? request.threads : large ? omp_get_max_threads() : 1;
   const std::int64_t columns = shape.per_ring / plan.lanes;
+  plan.threads = team_size(request.threads, columns);
   if (plan.threads > 1 && plan.threads > columns / 2) {
     return std::to_string(plan.threads) + " threads are too many for its " +
            std::to_string(columns) + " columns of vectors: a thread needs two";

@@ -110,6 +110,7 @@ class RingColumns {
   using V = hn::Vec<D>;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
+  static constexpr int rings = R;
   static constexpr size_t row = size_t{R} * L;  // doubles of x of a column
   static constexpr size_t positions = 2 * row;  // doubles of x and y
   static constexpr size_t block = 4 * row;      // doubles of x, y, vx and vy

@@ -1,5 +1,8 @@
 #include "kernels/stepping/ring_forms.hpp"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <array>
 
 #include "kernels/stepping/method.hpp"
@@ -49,6 +52,15 @@ RingForm find_ring_form(const Problem& problem) {
                 " concentric rings with constant offsets"};
   }
   return {*shape, refuses_law(law_form(problem.law), shape->rings)};
+}
+
+int team_size(int asked, std::int64_t columns) {
+  constexpr std::int64_t columns_that_pay = 7;  // some 0.15 us
+  constexpr std::int64_t small = 256;           // columns: 100 kB with 4 lanes and three rings
+  if (asked != 0) return asked;
+  const std::int64_t most = columns < small ? 2 : omp_get_num_procs();
+  const std::int64_t fit = std::min<std::int64_t>(omp_get_num_procs(), columns / columns_that_pay);
+  return static_cast<int>(std::clamp<std::int64_t>(fit, 1, most));
 }
 
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns) {

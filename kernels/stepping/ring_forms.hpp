@@ -24,6 +24,11 @@ bool has_ring_law(LawForm form);
 /// least: 8, 4, or 0 if neither.
 int ring_lanes(std::int64_t per_ring, VectorTarget target);
 
+/// The threads asked for, or, for 0, as many as pay: a core each, at least so many columns of
+/// vectors each that a hand-shake is short beside them, and no more than two for a ball that one
+/// core's cache holds.
+int team_size(int asked, std::int64_t columns);
+
 /// Multiplications and multiply-adds of whole vectors that `columns` columns take: what the ports
 /// must do at least.
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns);

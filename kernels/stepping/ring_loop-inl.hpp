@@ -43,6 +43,19 @@ class RingLoop {
   [[nodiscard]] double* column(size_t k) { return data_.data() + k * Columns::block; }
   [[nodiscard]] const double* column(size_t k) const { return data_.data() + k * Columns::block; }
 
+  // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
+  // last tile as they were before the stage, outermost first.
+  static constexpr size_t told = 1;  // of those columns
+  HWY_INLINE Column before_first(const double* const*, const double* const* last) const {
+    return turn(Columns::load(last[0]), -1);
+  }
+  HWY_INLINE Column behind_last(const double* const* first, const double* const*) const {
+    return turn(Columns::load(first[0]), 1);
+  }
+  // Nothing is to be mended at the ends after a stage.
+  void mend_first(double*) const {}
+  void mend_last(double*) const {}
+
   template <class Walls>
   HWY_INLINE void run(const Columns& physics, const std::vector<Constants>& constants,
                       const Walls& walls, std::int64_t steps) {

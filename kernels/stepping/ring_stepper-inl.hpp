@@ -37,7 +37,7 @@ class RingStepper final : public StagedStepper {
   using Columns = RingColumns<D, Law, Walls, R>;
   using Constants = typename Columns::Constants;
   using Loop = RingLoop<Columns, true, 32>;
-  using Team = RingTeam<Columns>;
+  using Team = RingTeam<Columns, Loop>;
   using Tiles = RingTiles<Columns>;
   static constexpr size_t L = Columns::L;
 
@@ -82,7 +82,7 @@ class RingStepper final : public StagedStepper {
   static Walk choose_walk(size_t columns, size_t threads, size_t stages) {
     if (stages < most_ghosts) return Walk(std::in_place_type<Tiles>, columns, threads, stages);
     if (columns / threads < columns_alone) {
-      if (threads > 1) return Walk(std::in_place_type<Team>, columns, threads);
+      if (threads > 1) return Walk(std::in_place_type<Team>, Loop(columns), threads);
     }
     if (threads == 1 && columns * Columns::block * sizeof(double) <= cached_bytes) {
       return Walk(std::in_place_type<Loop>, columns);

@@ -1,4 +1,5 @@
-// A ring that is stepped by a few threads, each with a tile of its columns, a stage at a time.
+// A ring, or half of one, that is stepped by a few threads, each with a tile of its columns, a
+// stage at a time.
 //
 // Why it is built so
 //  1. A ball of 360 particles takes half a microsecond a stage; a line of memory takes a tenth or
@@ -42,20 +43,21 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <utility>
 #include <vector>
 
 #include "kernels/stepping/faster_of_two.hpp"
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
-#include "kernels/stepping/ring_loop-inl.hpp"
 #include "kernels/stepping/spin.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
 namespace HWY_NAMESPACE {
 
-/// Columns: a RingColumns.
-template <class Columns>
+/// Columns: a RingColumns. Walk: how one thread steps all columns and what is beyond their ends:
+/// RingLoop or MirrorHalf.
+template <class Columns, class Walk>
 class RingTeam {
   using Column = typename Columns::Column;
   using Constants = typename Columns::Constants;
@@ -65,14 +67,19 @@ class RingTeam {
   static constexpr size_t chunk = 32;  // columns; their reciprocals take 7 kB with 4 lanes
 
  public:
-  /// A tile a thread, of at least two columns.
-  RingTeam(size_t columns, size_t tiles) : loop_(columns) {
+  /// A tile a thread, of at least fewest_columns.
+  RingTeam(Walk walk, size_t tiles) : walk_(std::move(walk)) {
+    const size_t columns = walk_.size();
     for (size_t t = 0; t < tiles; ++t) {
       tiles_.emplace_back(columns * t / tiles, columns * (t + 1) / tiles);
     }
   }
 
-  [[nodiscard]] double* column(size_t k) { return loop_.column(k); }
+  static constexpr size_t fewest_columns = std::max<size_t>(2, Walk::told);
+
+  [[nodiscard]] double* column(size_t k) { return walk_.column(k); }
+  /// Holds the columns between two calls of run().
+  [[nodiscard]] Walk& walk() { return walk_; }
 
   template <class Walls>
   void run(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
@@ -83,7 +90,7 @@ class RingTeam {
       const int way = choice_.next();
       const auto start = Clock::now();
       if (way == alone) {
-        loop_.run(physics, constants, walls, slice);
+        walk_.run(physics, constants, walls, slice);
       } else {
         run_together(physics, constants, walls, slice);
       }
@@ -115,8 +122,10 @@ class RingTeam {
   // Where a tile tells its neighbours the positions of its outer columns, for even and odd stages.
   struct alignas(64) Mailbox {
     std::atomic<std::int64_t> stage{-1};
-    alignas(64) double first[2][Columns::positions], last[2][Columns::positions];
+    alignas(64) double first[2][Walk::told][Columns::positions];
+    alignas(64) double last[2][Walk::told][Columns::positions];
   };
+  using Told = const double * [Walk::told];
 
   template <class Walls>
   HWY_NOINLINE void run_together(const Columns& physics, const std::vector<Constants>& constants,
@@ -125,7 +134,8 @@ class RingTeam {
     std::vector<Mailbox> boxes(tiles);
     for (size_t t = 0; t < tiles; ++t) {
       Tile& tile = tiles_[t];
-      std::copy_n(loop_.column(tile.begin), tile.size() * block, tile.column(0));
+      std::copy_n(walk_.column(tile.begin), tile.size() * block, tile.column(0));
+      mend(t);
       publish(boxes[t], tile, 0);
     }
 #pragma omp parallel num_threads(static_cast <int>(tiles))
@@ -138,6 +148,7 @@ class RingTeam {
         for (const Constants& c : constants) {
           for (size_t t = me; t < tiles; t += team) {
             pass(physics, c, walls, t, boxes, stage);
+            mend(t);
             publish(boxes[t], tiles_[t], stage + 1);
           }
           ++stage;
@@ -145,18 +156,26 @@ class RingTeam {
       }
     }
     for (Tile& tile : tiles_) {
-      std::copy_n(tile.column(0), tile.size() * block, loop_.column(tile.begin));
+      std::copy_n(tile.column(0), tile.size() * block, walk_.column(tile.begin));
     }
   }
 
+  HWY_INLINE void mend(size_t t) {
+    if (t == 0) walk_.mend_first(tiles_[t].column(0));
+    if (t + 1 == tiles_.size()) walk_.mend_last(tiles_[t].column(tiles_[t].size() - 1));
+  }
+
+  // The outermost columns first.
   static HWY_INLINE void publish(Mailbox& box, Tile& tile, std::int64_t stage) {
     const auto parity = static_cast<size_t>(stage & 1);
-    Columns::store(Columns::load(tile.column(0)), box.first[parity]);
-    Columns::store(Columns::load(tile.column(tile.size() - 1)), box.last[parity]);
+    for (size_t i = 0; i < Walk::told; ++i) {
+      Columns::store(Columns::load(tile.column(i)), box.first[parity][i]);
+      Columns::store(Columns::load(tile.column(tile.size() - 1 - i)), box.last[parity][i]);
+    }
     box.stage.store(stage, std::memory_order_release);
   }
 
-  // Fills tile t's ghosts; across the seam of the lanes they are turned by a lane.
+  // Fills tile t's ghosts.
   HWY_INLINE void fill_ghosts(size_t t, const std::vector<Mailbox>& boxes, std::int64_t stage) {
     const size_t tiles = tiles_.size();
     const auto parity = static_cast<size_t>(stage & 1);
@@ -164,10 +183,16 @@ class RingTeam {
     const Mailbox& behind = boxes[(t + 1) % tiles];
     wait_for(behind.stage, stage);
     wait_for(before.stage, stage);
-    const Column next = Columns::load(behind.first[parity]);
-    const Column previous = Columns::load(before.last[parity]);
-    Columns::store(t + 1 == tiles ? Columns::turn(next, 1) : next, tiles_[t].behind());
-    Columns::store(t == 0 ? Columns::turn(previous, -1) : previous, tiles_[t].before());
+    Told first, last;  // of the whole
+    for (size_t i = 0; i < Walk::told; ++i) {
+      first[i] = boxes.front().first[parity][i];
+      last[i] = boxes.back().last[parity][i];
+    }
+    Columns::store(
+        t + 1 == tiles ? walk_.behind_last(first, last) : Columns::load(behind.first[parity][0]),
+        tiles_[t].behind());
+    Columns::store(t == 0 ? walk_.before_first(first, last) : Columns::load(before.last[parity][0]),
+                   tiles_[t].before());
   }
 
   // One stage of tile t.
@@ -201,7 +226,7 @@ class RingTeam {
     Columns::mirror_at_walls(walls, tile.column(0), tile.size(), nearest);
   }
 
-  RingLoop<Columns, true, chunk> loop_;  // holds the ring between slices
+  Walk walk_;
   std::vector<Tile> tiles_;
   FasterOfTwo choice_;
   std::int64_t slice_ = 256;  // steps
