@@ -25,6 +25,7 @@
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
 #include "driver/step_check.hpp"
+#include "driver/trouble_text.hpp"
 #include "verify/booking_stepper.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
@@ -187,8 +188,8 @@ int report_end(const RunRecord& record, const Options& options) {
                  record.result.step, last.string());
       return exit_interrupted;
     case RunStatus::unstable:
-      fmt::print(stderr, "bounce: {}\nThe last good state, of step {}, is in {}.\n",
-                 describe_trouble(record.result, record.scene), record.result.step, last.string());
+      fmt::print(stderr, "bounce: {}{}", trouble_text(record),
+                 how_to_go_on(record, options.directory().string()));
       return exit_unstable;
   }
   return 1;
@@ -227,6 +228,11 @@ int run(const Options& options, const std::string& command_line) {
   record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
                            record.findings, margin);
   record.margin = margin.result();
+  if (const RunResult& result = record.result; result.trouble) {
+    record.trouble_report =
+        report_trouble(problem, *result.trouble, result.start_refused ? nullptr : &result.last,
+                       result.refused, record.margin);
+  }
   const std::string last = state_csv(record.result.last);
   write_text(directory.path() / "final.csv", last);
   write_text(directory.path() / "run.json", run_json(record));

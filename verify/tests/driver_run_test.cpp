@@ -342,6 +342,41 @@ TEST_F(DriverRunTest, AnUnstableRunExitsWith3AndKeepsTheLastGoodState) {
   EXPECT_EQ(run(to_bad), 3);
 }
 
+// The number after `"key": ` behind the first `"object": {` of a JSON text, as it stands there.
+std::string number_in(const std::string& text, const std::string& object, const std::string& key) {
+  const auto from = text.find("\"" + key + "\": ", text.find("\"" + object + "\": {"));
+  if (from == std::string::npos) return "";
+  const auto at = from + key.size() + 4;
+  return text.substr(at, text.find_first_of(",\n", at) - at);
+}
+
+TEST_F(DriverRunTest, AStoppedRunGoesOnFromItsLastGoodStateAsItIsTold) {
+  for (const std::string method : {"listing", "leapfrog"}) {
+    ASSERT_EQ(run({"run", "example-2", "--set", "time.step=3.9e-4", "--set",
+                   "time.method=" + method, "--force", "--out", "r"}),
+              3);
+    const std::string json = contents(folder_ / "r/run.json");
+    for (const char* key : {"\"bond_class\": \"ring ", "\"ratio\": 0.", "\"energy_jump\": ",
+                            "\"last_good\": {", "\"refused\": {", "\"stable_step\": 0.000"}) {
+      EXPECT_NE(json.find(key), std::string::npos) << key << " not in: " << json;
+    }
+    // The command that it prints.
+    const std::string start = "  bounce run ";
+    const auto at = err().find(start);
+    ASSERT_NE(at, std::string::npos) << err();
+    std::istringstream line(err().substr(at + 9, err().find('\n', at) - at - 9));
+    Words words;
+    for (std::string word; line >> word;) words.push_back(word);
+    words.insert(words.end(), {"--out", "on", "--steps", "20000", "--force"});
+    ASSERT_EQ(run(words), 0) << err();
+    EXPECT_NE(out().find("ledgers close"), std::string::npos) << out();
+    // Nothing is lost between the two: not the half kick that leapfrog has pending.
+    EXPECT_EQ(number_in(json, "last_good", "energy"),
+              number_in(contents(folder_ / "on/run.json"), "energies_at_start", "total"));
+    EXPECT_NE(number_in(json, "last_good", "energy"), "");
+  }
+}
+
 // Example 2 at its start: omega_max = 5221 1/s, stable step 3.83e-4 s.
 TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   const auto words = [](const std::string& step, Words more) {

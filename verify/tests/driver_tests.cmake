@@ -1,5 +1,5 @@
 # Tests of driver/, included by the CMakeLists.txt beside this file.
-foreach(name driver_scene_file_test driver_schedule_test)
+foreach(name driver_scene_file_test driver_schedule_test driver_trouble_test)
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE bounce_driver GTest::gtest_main)
   gtest_discover_tests(${name} PROPERTIES LABELS driver)
