@@ -66,7 +66,7 @@ SceneFile load_scene(const Options& options) {
     if (*options.steps < 1) {
       throw InputError(fmt::format("--steps {}: allowed is 1 or more", *options.steps));
     }
-    file.end_at(static_cast<double>(*options.steps) * file.scene().time.step, "--steps");
+    file.end_after(*options.steps, "--steps");
   }
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   const Scene scene = file.scene();

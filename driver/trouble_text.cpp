@@ -35,7 +35,7 @@ std::string headline(const RunRecord& record) {
 }
 
 std::string part_text(const std::optional<Edge>& edge) {
-  return edge ? fmt::format("{:.3g}", edge->part) : "unknown (a stiffness is not finite)";
+  return edge ? fmt::format("{:.4g}", edge->part) : "unknown (a stiffness is not finite)";
 }
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }

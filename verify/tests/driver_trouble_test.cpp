@@ -100,7 +100,7 @@ TEST_F(TroubleTest, NamesStepParticleBondAndClass) {
   for (const char* part :
        {"unstable at step 12777 (t = 0.012777 s): ", "particle 130",
         "bond 130-131, ring 2-ring 2: R/R0 = 0.3, a step before 1",
-        "0.00261 of the stable step a step before", "stable would have been: "}) {
+        "0.002611 of the stable step a step before", "stable would have been: "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in: " << text;
   }
 }
