@@ -82,14 +82,15 @@ std::optional<StepCheck> check_before(const SceneFile& file, const Problem& prob
                                       const Options& options) {
   const auto check = check_step(problem);
   if (!options.force) refuse_unstable_step(file, problem, check);
-  if (options.quiet || !check) return check;
-  fmt::print("{}\n", describe(*check, problem));
-  std::fflush(stdout);
-  if (!(check->part <= part_to_warn_of)) {
-    fmt::print(stderr, "bounce: warning: time.step = {} is {:.2g} of the stable step {:.4g} s{}\n",
-               file.scene().time.step, check->part, check->stable_step,
-               check->part > 1.0 ? "; it is run all the same (--force)"
-                                 : "; in an impact, which presses bonds, it may become unstable");
+  if (options.quiet) return check;
+  std::vector<std::string> warnings{warning_of_lost_motion(problem, file.scene())};
+  if (check) {
+    fmt::print("{}\n", describe(*check, problem));
+    std::fflush(stdout);
+    warnings.push_back(warning_of(*check, file.scene()));
+  }
+  for (const std::string& warning : warnings) {
+    if (!warning.empty()) fmt::print(stderr, "bounce: warning: {}\n", warning);
   }
   return check;
 }

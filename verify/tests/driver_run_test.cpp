@@ -393,7 +393,7 @@ TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   EXPECT_EQ(names(), Words{});
   // Just within: warned of, and run. Below one half: nothing on stderr.
   ASSERT_EQ(run(words("3.8e-4", {"--out", "a"})), 0) << err();
-  EXPECT_NE(err().find("warning: time.step = 0.00038 is 0.99 of the stable step"),
+  EXPECT_NE(err().find("warning: time.step = 0.00038 is 0.992 of the stable step"),
             std::string::npos)
       << err();
   ASSERT_EQ(run(words("3.8e-4", {"--out", "b", "--quiet"})), 0);
@@ -402,9 +402,41 @@ TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   EXPECT_EQ(err(), "");
   // Beyond, with --force: told of, run, and kept. It takes more than 20 steps to become unstable.
   ASSERT_EQ(run(words("3.84e-4", {"--force", "--out", "d"})), 0) << err();
-  EXPECT_NE(err().find("is 1 of the stable step 0.0003831 s; it is run all the same (--force)"),
+  EXPECT_NE(err().find("is 1.002 of the stable step 0.0003831 s; it is run all the same (--force)"),
             std::string::npos)
       << err();
+}
+
+// Far away the last place of a position is as long as a step.
+TEST_F(DriverRunTest, MotionThatRoundingLosesIsWarnedOf) {
+  const auto at = [](const std::string& place) {
+    return Words{"run",     "example-2",
+                 "--steps", "20000",
+                 "--set",   "wall=[]",
+                 "--set",   "ball.rounding=none",
+                 "--set",   "ball.centre=[" + place + ", 0]",
+                 "--out",   "r" + place};
+  };
+  ASSERT_EQ(run(at("1e3")), 0);
+  EXPECT_EQ(err(), "");
+  ASSERT_EQ(run(at("1e9")), 0);
+  EXPECT_NE(
+      err().find("warning: positions of 1e+09 cm are rounded to 1.2e-07 cm: what is slower than "
+                 "0.06 cm/s does not move in a step of 1e-06 s, and 0.0012 cm may get lost"),
+      std::string::npos)
+      << err();
+}
+
+// A step so short that the scene's own end would be too many of them.
+TEST_F(DriverRunTest, StepsReplaceAnEndThatIsTooFar) {
+  const Words words{"run",   "example-2", "--set", "time.step=1e-20",           "--quiet",
+                    "--out", "r",         "--set", "output.monitor_every=1e-19"};
+  EXPECT_EQ(run(words), 2);
+  EXPECT_NE(err().find("at most 1e15 steps"), std::string::npos) << err();
+  Words few = words;
+  few.insert(few.end(), {"--steps", "20"});
+  EXPECT_EQ(run(few), 0) << err();
+  EXPECT_EQ(entry(folder_ / "r/run.json", "steps"), "20");
 }
 
 TEST_F(DriverRunTest, ARunTellsItsPartOfTheStableStep) {
