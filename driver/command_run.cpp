@@ -26,6 +26,7 @@
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
 #include "driver/step_check.hpp"
+#include "driver/trouble_text.hpp"
 #include "verify/booking_stepper.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
@@ -66,7 +67,7 @@ SceneFile load_scene(const Options& options) {
     if (*options.steps < 1) {
       throw InputError(fmt::format("--steps {}: allowed is 1 or more", *options.steps));
     }
-    file.end_at(static_cast<double>(*options.steps) * file.scene().time.step, "--steps");
+    file.end_after(*options.steps, "--steps");
   }
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   const Scene scene = file.scene();
@@ -82,14 +83,15 @@ std::optional<StepCheck> check_before(const SceneFile& file, const Problem& prob
                                       const Options& options) {
   const auto check = check_step(problem);
   if (!options.force) refuse_unstable_step(file, problem, check);
-  if (options.quiet || !check) return check;
-  fmt::print("{}\n", describe(*check, problem));
-  std::fflush(stdout);
-  if (!(check->part <= part_to_warn_of)) {
-    fmt::print(stderr, "bounce: warning: time.step = {} is {:.2g} of the stable step {:.4g} s{}\n",
-               file.scene().time.step, check->part, check->stable_step,
-               check->part > 1.0 ? "; it is run all the same (--force)"
-                                 : "; in an impact, which presses bonds, it may become unstable");
+  if (options.quiet) return check;
+  std::vector<std::string> warnings{warning_of_lost_motion(problem, file.scene())};
+  if (check) {
+    fmt::print("{}\n", describe(*check, problem));
+    std::fflush(stdout);
+    warnings.push_back(warning_of(*check, file.scene()));
+  }
+  for (const std::string& warning : warnings) {
+    if (!warning.empty()) fmt::print(stderr, "bounce: warning: {}\n", warning);
   }
   return check;
 }
@@ -191,8 +193,8 @@ int report_end(const RunRecord& record, const Options& options) {
                  record.result.step, last.string());
       return exit_interrupted;
     case RunStatus::unstable:
-      fmt::print(stderr, "bounce: {}\nThe last good state, of step {}, is in {}.\n",
-                 describe_trouble(record.result, record.scene), record.result.step, last.string());
+      fmt::print(stderr, "bounce: {}{}", trouble_text(record),
+                 how_to_go_on(record, options.directory().string()));
       return exit_unstable;
   }
   return 1;
@@ -233,6 +235,11 @@ int run(const Options& options, const std::string& command_line) {
   record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
                            record.findings, margin);
   record.margin = margin.result();
+  if (const RunResult& result = record.result; result.trouble) {
+    record.trouble_report =
+        report_trouble(problem, *result.trouble, result.start_refused ? nullptr : &result.last,
+                       result.refused, record.margin);
+  }
   const auto write_last = [&record](OutputFile& out) { write_state_csv(out, record.result.last); };
   write_file_whole(directory.path() / "final.csv", write_last);
   write_text(directory.path() / "run.json", run_json(record));

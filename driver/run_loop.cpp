@@ -30,6 +30,7 @@ class RunLoop {
   bool advance_to(std::int64_t target);
   bool look(RunStatus status);
   void find_trouble();
+  bool refuses(const State& state);
 
   Stepper& stepper_;
   const Problem& problem_;
@@ -75,23 +76,36 @@ bool RunLoop::look(RunStatus status) {
   return true;
 }
 
+// Asks the watch; a refused state takes the place of the refused one known.
+bool RunLoop::refuses(const State& state) {
+  auto trouble = watch_.check(state, measure(problem_, state));
+  if (!trouble) return false;
+  result_.trouble = std::move(trouble);
+  result_.trouble_step = stepper_.step();
+  result_.refused = state;
+  return true;
+}
+
 // The stepper stands at a refused step, good_ before it. Leaves the stepper at the last good step.
 void RunLoop::find_trouble() {
   result_.status = RunStatus::unstable;
   result_.trouble_step = stepper_.step();
-  while (result_.trouble_step - good_.step > 1) {
+  result_.refused = stepper_.state();
+  result_.start_refused = stepper_.step() == good_.step;
+  const std::int64_t most = steps_to_look_at(problem_.initial.size());
+  while (result_.trouble_step - good_.step > most) {
     stepper_.restore(good_);
     stepper_.advance((result_.trouble_step - good_.step) / 2);
-    const State state = stepper_.state();
-    auto trouble = watch_.check(state, measure(problem_, state));
-    if (trouble) {
-      result_.trouble = std::move(trouble);
-      result_.trouble_step = stepper_.step();
-    } else {
-      good_ = stepper_.save();
-    }
+    if (!refuses(stepper_.state())) good_ = stepper_.save();
+  }
+  result_.looked_from = good_.step;
+  stepper_.restore(good_);
+  while (stepper_.step() + 1 < result_.trouble_step) {
+    stepper_.advance(1);
+    if (refuses(stepper_.state())) break;
   }
   stepper_.restore(good_);
+  if (!result_.start_refused) stepper_.advance(result_.trouble_step - 1 - good_.step);
 }
 
 RunResult RunLoop::run() {
@@ -111,6 +125,13 @@ RunResult RunLoop::run() {
 }
 
 }  // namespace
+
+std::int64_t steps_to_look_at(std::size_t particles) {
+  constexpr std::int64_t particle_steps = 360 * 10000;
+  constexpr std::int64_t least = 100;
+  return std::max(least,
+                  particle_steps / static_cast<std::int64_t>(std::max<std::size_t>(particles, 1)));
+}
 
 RunResult run_loop(Stepper& stepper, const Problem& problem, const Schedule& schedule,
                    const RunHooks& hooks) {

@@ -33,11 +33,21 @@ struct RunResult {
   std::int64_t steps_timed = 0;  ///< steps taken in that time
   std::optional<Trouble> trouble;
   std::int64_t trouble_step = 0;  ///< first step that the watch refuses
+  /// Every step from this one to trouble_step has been looked at.
+  std::int64_t looked_from = 0;
+  State refused;               ///< the state at trouble_step
+  bool start_refused = false;  ///< trouble_step is 0: `last` is no good state
 };
 
+/// Most steps that are looked at one by one when a run has become unstable: at 360 particles, those
+/// between two rows of monitor.csv in the paper's examples. They take about half a second.
+std::int64_t steps_to_look_at(std::size_t particles);
+
 /// Runs from the stepper's step 0. When the watch refuses a state, goes back to the last one it
-/// passed and finds the first refused step by bisection, which is exact because runs repeat to the
-/// bit.
+/// passed and looks at every step from there; runs repeat to the bit. If that is more than
+/// steps_to_look_at, it first halves the way: a passed state takes the place of the last good one,
+/// a refused one that of the end. Energy that swings could be refused, passed and refused again, so
+/// the first refused step is exact from `looked_from` on, and no earlier one is known.
 RunResult run_loop(Stepper& stepper, const Problem& problem, const Schedule& schedule,
                    const RunHooks& hooks);
 

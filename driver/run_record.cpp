@@ -8,6 +8,7 @@
 
 #include "driver/origin.hpp"
 #include "driver/run_summary.hpp"
+#include "driver/trouble_text.hpp"
 
 namespace bounce {
 namespace {
@@ -33,15 +34,6 @@ Json energies_json(const Sample& sample) {
           {"bond", sample.bond},
           {"gravity", sample.gravity},
           {"total", sample.total()}};
-}
-
-// Numbers of the listing: from 1.
-Json trouble_json(const RunResult& result, const Scene& scene) {
-  Json json{{"message", describe_trouble(result, scene)}, {"step", result.trouble_step}};
-  const Trouble& trouble = *result.trouble;
-  if (trouble.particle >= 0) json["particle"] = trouble.particle + 1;
-  if (trouble.bond_first >= 0) json["bond"] = {trouble.bond_first + 1, trouble.bond_second + 1};
-  return json;
 }
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -81,24 +73,6 @@ std::string name_of(RunStatus status) {
   return "unstable";
 }
 
-std::string describe_trouble(const RunResult& result, const Scene& scene) {
-  const Trouble& trouble = *result.trouble;
-  std::string text =
-      fmt::format("unstable at step {} (t = {:.9g} s): {}", result.trouble_step,
-                  static_cast<double>(result.trouble_step) * scene.time.step, trouble.what);
-  // The watch's sentence names what it is about; the rest is added.
-  const auto lacks = [&trouble](const char* word) {
-    return trouble.what.find(word) == std::string::npos;
-  };
-  if (trouble.particle >= 0 && lacks("particle ")) {
-    text += fmt::format("; particle {}", trouble.particle + 1);
-  }
-  if (trouble.bond_first >= 0 && lacks("bond ")) {
-    text += fmt::format("; bond {}-{}", trouble.bond_first + 1, trouble.bond_second + 1);
-  }
-  return text;
-}
-
 double steps_per_second(const RunResult& result) {
   return result.steps_timed > 0 && result.seconds > 0.0
              ? static_cast<double>(result.steps_timed) / result.seconds
@@ -112,7 +86,7 @@ std::string run_json(const RunRecord& record) {
             {"initial", record.initial.empty() ? Json() : Json(record.initial)},
             {"command", record.command},
             {"status", name_of(result.status)}};
-  if (result.trouble) json["trouble"] = trouble_json(result, record.scene);
+  if (record.trouble_report) json["trouble"] = trouble_json(record);
   json["steps"] = result.step;
   json["steps_asked"] = record.steps_asked;
   json["time"] = static_cast<double>(result.step) * record.scene.time.step;

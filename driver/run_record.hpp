@@ -8,6 +8,7 @@
 #include "driver/step_check.hpp"
 #include "kernels/model/scene.hpp"
 #include "kernels/stepping/plan.hpp"
+#include "verify/trouble_report.hpp"
 
 namespace bounce {
 
@@ -21,6 +22,7 @@ struct RunRecord {
   std::size_t particles = 0, bonds = 0;
   std::int64_t steps_asked = 0;
   RunResult result;
+  std::optional<TroubleReport> trouble_report;  ///< of an unstable run
   RunFindings findings;
   std::optional<StepCheck> step_check;  ///< at the start; nothing: no finite stiffness there
   std::optional<Margin> margin;         ///< of the states of monitor.csv's rows
@@ -28,9 +30,6 @@ struct RunRecord {
 
 /// "complete", "interrupted" or "unstable".
 std::string name_of(RunStatus status);
-
-/// One sentence naming step, time, particle and bond of an unstable run.
-std::string describe_trouble(const RunResult& result, const Scene& scene);
 
 /// Steps a second of wall time; 0 if none were taken.
 double steps_per_second(const RunResult& result);

@@ -139,6 +139,9 @@ SceneFile SceneFile::find(const std::string& name) {
     if (scene.name == name) return parse(scene.text, name + " (built in)");
     names.emplace_back(scene.name);
   }
+  for (const BuiltInScene& scene : extreme_scenes()) {
+    if ("extremes/" + std::string(scene.name) == name) return parse(scene.text, name);
+  }
   std::error_code ignored;
   if (name.find('/') != std::string::npos || name.ends_with(".toml") ||
       std::filesystem::exists(name, ignored)) {
@@ -151,6 +154,7 @@ SceneFile SceneFile::find(const std::string& name) {
 void SceneFile::Reader::table(const toml::table& entries, const std::string& prefix) {
   for (const auto& [key, node] : entries) {
     const std::string path = prefix + std::string(key.str());
+    if (path == "extreme" && node.is_table()) continue;  // of bounce extremes: extreme_row.hpp
     if (prefix.empty() && is_table_name(path)) {
       if (!node.is_table()) {
         throw bad_value(at(key.source()), path, shown(node), "a table, [" + path + "]");
@@ -247,6 +251,10 @@ void SceneFile::set(const std::string& assignment) {
   const std::string text = trimmed(assignment.substr(equals + 1));
   if (const auto value = as_toml(text)) return reader.option(key, *value->get("value"));
   reader.option(key, toml::value<std::string>(text));
+}
+
+void SceneFile::end_after(std::int64_t steps, const std::string& option) {
+  end_at(static_cast<double>(steps) * scene_.time.step, option);
 }
 
 void SceneFile::end_at(double end, const std::string& option) {

@@ -19,7 +19,7 @@ class SceneFile {
   /// Reads TOML; `name` is what messages call it.
   static SceneFile parse(std::string_view text, const std::string& name);
   static SceneFile read(const std::string& path);
-  /// `name` is a built-in scene ("example-2") or else a file's path.
+  /// `name` is a built-in scene ("example-2", "extremes/gravity-none") or else a file's path.
   static SceneFile find(const std::string& name);
 
   /// Applies --set key=value. The value is TOML, or else text. `wall.alpha` is every wall's,
@@ -28,6 +28,8 @@ class SceneFile {
   /// Ends the run at `end` (s) whatever the scene says, and drops the frames after it; messages
   /// call the origin `option`.
   void end_at(double end, const std::string& option);
+  /// Ends it after so many steps, in the same way.
+  void end_after(std::int64_t steps, const std::string& option);
   /// Says where the value of a key that is not in the file came from, for messages.
   void note_origin(const std::string& key, const std::string& origin) { origins_[key] = origin; }
 

@@ -1,5 +1,9 @@
 #include "driver/step_check.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "kernels/stepping/method.hpp"
@@ -7,6 +11,11 @@
 
 namespace bounce {
 namespace {
+
+// Two digits, and more where they tell a step below the edge from one beyond it.
+std::string part_text(double part) {
+  return std::abs(part - 1.0) < 0.1 ? fmt::format("{:.4g}", part) : fmt::format("{:.2g}", part);
+}
 
 std::string source_of(bool exact) { return exact ? "" : ", by a bound: some per cent too careful"; }
 
@@ -38,10 +47,33 @@ void refuse_unstable_step(const SceneFile& file, const Problem& problem,
 
 std::string describe(const StepCheck& check, const Problem& problem) {
   return fmt::format(
-      "time step: {:.2g} of the stable step of {} at the start, {:.4g} s (omega_max = "
+      "time step: {} of the stable step of {} at the start, {:.4g} s (omega_max = "
       "{:.4g} 1/s{})",
-      check.part, problem.method->name, check.stable_step, check.fastest.omega,
+      part_text(check.part), problem.method->name, check.stable_step, check.fastest.omega,
       source_of(check.fastest.exact));
+}
+
+std::string warning_of(const StepCheck& check, const Scene& scene) {
+  if (check.part <= part_to_warn_of) return "";
+  return fmt::format("time.step = {} is {} of the stable step {:.4g} s{}", scene.time.step,
+                     part_text(check.part), check.stable_step,
+                     check.part > 1.0
+                         ? "; it is run all the same (--force)"
+                         : "; in an impact, which presses bonds, it may become unstable");
+}
+
+std::string warning_of_lost_motion(const Problem& problem, const Scene& scene) {
+  double place = 0.0;
+  for (std::size_t i = 0; i < problem.initial.size(); ++i) {
+    place = std::max({place, std::abs(problem.initial.x[i]), std::abs(problem.initial.y[i])});
+  }
+  const double last_place = std::nextafter(place, std::numeric_limits<double>::infinity()) - place;
+  const double lost = 0.5 * last_place / problem.step;
+  if (lost * scene.time.end <= lost_motion_to_warn_of) return "";
+  return fmt::format(
+      "positions of {:.3g} cm are rounded to {:.2g} cm: what is slower than {:.2g} cm/s does not "
+      "move in a step of {} s, and {:.2g} cm may get lost until {} s",
+      place, last_place, lost, scene.time.step, lost * scene.time.end, scene.time.end);
 }
 
 std::string describe(const Margin& margin, double time) {

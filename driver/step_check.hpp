@@ -35,6 +35,16 @@ void refuse_unstable_step(const SceneFile& file, const Problem& problem,
 /// One line for people: stable step, and the part of it that the time step is.
 std::string describe(const StepCheck& check, const Problem& problem);
 
+/// What to warn of before a run; "" if there is nothing.
+std::string warning_of(const StepCheck& check, const Scene& scene);
+
+/// Motion that rounding positions may swallow before a run is warned of, cm: the last decimal of
+/// the listing's frames. x + v dt is x where v dt is less than half a last place of x.
+inline constexpr double lost_motion_to_warn_of = 1e-4;
+
+/// The warning of that, by the positions of the start, or "".
+std::string warning_of_lost_motion(const Problem& problem, const Scene& scene);
+
 /// The same of what the run used at most: "0.0031 at t = 9.2 s (bond 12-13 at R/R0 = 0.61)".
 std::string describe(const Margin& margin, double time);
 

@@ -406,6 +406,41 @@ TEST_F(DriverRunTest, AnUnstableRunExitsWith3AndKeepsTheLastGoodState) {
   EXPECT_EQ(run(to_bad), 3);
 }
 
+// The number after `"key": ` behind the first `"object": {` of a JSON text, as it stands there.
+std::string number_in(const std::string& text, const std::string& object, const std::string& key) {
+  const auto from = text.find("\"" + key + "\": ", text.find("\"" + object + "\": {"));
+  if (from == std::string::npos) return "";
+  const auto at = from + key.size() + 4;
+  return text.substr(at, text.find_first_of(",\n", at) - at);
+}
+
+TEST_F(DriverRunTest, AStoppedRunGoesOnFromItsLastGoodStateAsItIsTold) {
+  for (const std::string method : {"listing", "leapfrog"}) {
+    ASSERT_EQ(run({"run", "example-2", "--set", "time.step=3.9e-4", "--set",
+                   "time.method=" + method, "--force", "--out", "r"}),
+              3);
+    const std::string json = contents(folder_ / "r/run.json");
+    for (const char* key : {"\"bond_class\": \"ring ", "\"ratio\": 0.", "\"energy_jump\": ",
+                            "\"last_good\": {", "\"refused\": {", "\"stable_step\": 0.000"}) {
+      EXPECT_NE(json.find(key), std::string::npos) << key << " not in: " << json;
+    }
+    // The command that it prints.
+    const std::string start = "  bounce run ";
+    const auto at = err().find(start);
+    ASSERT_NE(at, std::string::npos) << err();
+    std::istringstream line(err().substr(at + 9, err().find('\n', at) - at - 9));
+    Words words;
+    for (std::string word; line >> word;) words.push_back(word);
+    words.insert(words.end(), {"--out", "on", "--steps", "20000", "--force"});
+    ASSERT_EQ(run(words), 0) << err();
+    EXPECT_NE(out().find("ledgers close"), std::string::npos) << out();
+    // Nothing is lost between the two: not the half kick that leapfrog has pending.
+    EXPECT_EQ(number_in(json, "last_good", "energy"),
+              number_in(contents(folder_ / "on/run.json"), "energies_at_start", "total"));
+    EXPECT_NE(number_in(json, "last_good", "energy"), "");
+  }
+}
+
 // Example 2 at its start: omega_max = 5221 1/s, stable step 3.83e-4 s.
 TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   const auto words = [](const std::string& step, Words more) {
@@ -422,7 +457,7 @@ TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   EXPECT_EQ(names(), Words{});
   // Just within: warned of, and run. Below one half: nothing on stderr.
   ASSERT_EQ(run(words("3.8e-4", {"--out", "a"})), 0) << err();
-  EXPECT_NE(err().find("warning: time.step = 0.00038 is 0.99 of the stable step"),
+  EXPECT_NE(err().find("warning: time.step = 0.00038 is 0.992 of the stable step"),
             std::string::npos)
       << err();
   ASSERT_EQ(run(words("3.8e-4", {"--out", "b", "--quiet"})), 0);
@@ -431,9 +466,41 @@ TEST_F(DriverRunTest, AStepBeyondTheEdgeIsRefusedAndOneNearItWarnedOf) {
   EXPECT_EQ(err(), "");
   // Beyond, with --force: told of, run, and kept. It takes more than 20 steps to become unstable.
   ASSERT_EQ(run(words("3.84e-4", {"--force", "--out", "d"})), 0) << err();
-  EXPECT_NE(err().find("is 1 of the stable step 0.0003831 s; it is run all the same (--force)"),
+  EXPECT_NE(err().find("is 1.002 of the stable step 0.0003831 s; it is run all the same (--force)"),
             std::string::npos)
       << err();
+}
+
+// Far away the last place of a position is as long as a step.
+TEST_F(DriverRunTest, MotionThatRoundingLosesIsWarnedOf) {
+  const auto at = [](const std::string& place) {
+    return Words{"run",     "example-2",
+                 "--steps", "20000",
+                 "--set",   "wall=[]",
+                 "--set",   "ball.rounding=none",
+                 "--set",   "ball.centre=[" + place + ", 0]",
+                 "--out",   "r" + place};
+  };
+  ASSERT_EQ(run(at("1e3")), 0);
+  EXPECT_EQ(err(), "");
+  ASSERT_EQ(run(at("1e9")), 0);
+  EXPECT_NE(
+      err().find("warning: positions of 1e+09 cm are rounded to 1.2e-07 cm: what is slower than "
+                 "0.06 cm/s does not move in a step of 1e-06 s, and 0.0012 cm may get lost"),
+      std::string::npos)
+      << err();
+}
+
+// A step so short that the scene's own end would be too many of them.
+TEST_F(DriverRunTest, StepsReplaceAnEndThatIsTooFar) {
+  const Words words{"run",   "example-2", "--set", "time.step=1e-20",           "--quiet",
+                    "--out", "r",         "--set", "output.monitor_every=1e-19"};
+  EXPECT_EQ(run(words), 2);
+  EXPECT_NE(err().find("at most 1e15 steps"), std::string::npos) << err();
+  Words few = words;
+  few.insert(few.end(), {"--steps", "20"});
+  EXPECT_EQ(run(few), 0) << err();
+  EXPECT_EQ(entry(folder_ / "r/run.json", "steps"), "20");
 }
 
 TEST_F(DriverRunTest, ARunTellsItsPartOfTheStableStep) {
