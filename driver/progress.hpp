@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 namespace bounce {
@@ -25,6 +26,23 @@ class Progress {
   double step_time_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+};
+
+/// The same for a sweep: bar, cases done, time left. Parts of the work are in any unit.
+class CaseProgress {
+ public:
+  CaseProgress(bool on, std::size_t cases, double work);
+  ~CaseProgress();
+  CaseProgress(const CaseProgress&) = delete;
+  CaseProgress& operator=(const CaseProgress&) = delete;
+  void update(std::size_t cases, double work);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool on_;
+  std::size_t cases_;
+  double work_;
+  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace bounce

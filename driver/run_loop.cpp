@@ -92,7 +92,7 @@ void RunLoop::find_trouble() {
   result_.trouble_step = stepper_.step();
   result_.refused = stepper_.state();
   result_.start_refused = stepper_.step() == good_.step;
-  const std::int64_t most = steps_to_look_at(problem_.initial.size());
+  const std::int64_t most = steps_to_look_at(good_.state.size());
   while (result_.trouble_step - good_.step > most) {
     stepper_.restore(good_);
     stepper_.advance((result_.trouble_step - good_.step) / 2);

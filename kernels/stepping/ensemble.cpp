@@ -34,8 +34,12 @@ struct Ensemble::Member {
 /// A batch and the scenes in its lanes; used by one thread at a time.
 class Ensemble::Worker {
  public:
-  Worker(const BatchForm& form, const State& parked)
-      : batch_(make_batch(form)), lanes_(batch_->lanes()), parked_(parked), read_(parked) {
+  Worker(const BatchForm& form, const State& parked, std::int64_t look_every)
+      : batch_(make_batch(form)),
+        look_every_(look_every),
+        lanes_(batch_->lanes()),
+        parked_(parked),
+        read_(parked) {
     for (std::size_t l = 0; l < lanes_.size(); ++l) free_lane(l);
   }
   [[nodiscard]] std::size_t lanes() const { return lanes_.size(); }
@@ -62,8 +66,8 @@ class Ensemble::Worker {
 
     // The next step at which it is to be looked at. It depends on the scene alone, so that what a
     // scene is retired for does too.
-    [[nodiscard]] std::int64_t next_look() const {
-      return std::min(end, (step / check_every + 1) * check_every);
+    [[nodiscard]] std::int64_t next_look(std::int64_t every) const {
+      return std::min(end, (step / every + 1) * every);
     }
   };
 
@@ -82,11 +86,11 @@ class Ensemble::Worker {
 
   // Runs until the first scene is due, and looks at those that are.
   void run_to_next_look(const Member* members, const IsGood& is_good) {
-    std::int64_t steps = check_every;
+    std::int64_t steps = look_every_;
     bool fresh = false;  // a scene whose kick is not pending yet takes its first step
     for (const Lane& lane : lanes_) {
       if (lane.member == nullptr) continue;
-      steps = std::min(steps, lane.next_look() - lane.step);
+      steps = std::min(steps, lane.next_look(look_every_) - lane.step);
       fresh = fresh || (!lane.kick_pending && !lane.member->stages.merged.empty());
     }
     if (fresh) run(1);
@@ -94,7 +98,7 @@ class Ensemble::Worker {
     for (std::size_t l = 0; l < lanes_.size(); ++l) {
       const Lane& lane = lanes_[l];
       if (lane.member == nullptr) continue;
-      if (lane.step == lane.end || lane.step % check_every == 0) {
+      if (lane.step == lane.end || lane.step % look_every_ == 0) {
         look(l, static_cast<std::size_t>(lane.member - members), is_good);
       }
     }
@@ -145,6 +149,7 @@ class Ensemble::Worker {
   }
 
   std::unique_ptr<EnsembleBatch> batch_;
+  std::int64_t look_every_;
   std::vector<Lane> lanes_;
   State parked_;
   State read_;
@@ -181,15 +186,17 @@ BatchForm form_of(std::span<const Problem> problems, VectorTarget vector) {
 
 }  // namespace
 
-Ensemble::Ensemble(std::span<const Problem> problems, const PlanRequest& request, IsGood is_good)
-    : is_good_(std::move(is_good)) {
+Ensemble::Ensemble(std::span<const Problem> problems, const PlanRequest& request, IsGood is_good,
+                   std::int64_t look_every)
+    : is_good_(std::move(is_good)), look_every_(look_every) {
+  if (look_every <= 0) throw std::invalid_argument("an ensemble looks every 1 or more steps");
   const BatchForm form = form_of(problems, choose_vector(request.vector));
   members_.reserve(problems.size());
   for (const Problem& problem : problems) members_.emplace_back(problem);
   const int threads = request.threads == 0 ? omp_get_num_procs() : request.threads;
   check_threads(threads);
   for (int t = 0; t < threads; ++t) {
-    workers_.push_back(std::make_unique<Worker>(form, problems.front().initial));
+    workers_.push_back(std::make_unique<Worker>(form, problems.front().initial, look_every));
   }
 }
 

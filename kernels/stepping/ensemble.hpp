@@ -25,15 +25,17 @@ class Ensemble {
   /// True if scene i may go on. Called by several threads, never for the same scene at once.
   using IsGood = std::function<bool(std::size_t i, const State&)>;
 
-  /// How often a scene is looked at, in its own steps from its start. That costs less than 1 %.
+  /// How often a scene is looked at unless said otherwise, in its own steps from its start. That
+  /// costs less than 1 %.
   static constexpr std::int64_t check_every = 2000;
 
   /// Uses vector target and threads of the request (0: one a core); its kernel name is not looked
   /// at. Throws PlanError naming the problem that is of another kind than the first, or why the
   /// ring kernels cannot run them.
-  /// A state that is not finite is never good; `is_good` may demand more.
+  /// A state that is not finite is never good; `is_good` may demand more, each `look_every` steps
+  /// and where advance() ends. Throws std::invalid_argument unless look_every > 0.
   explicit Ensemble(std::span<const Problem> problems, const PlanRequest& request = {},
-                    IsGood is_good = {});
+                    IsGood is_good = {}, std::int64_t look_every = check_every);
   ~Ensemble();
   Ensemble(const Ensemble&) = delete;
   Ensemble& operator=(const Ensemble&) = delete;
@@ -59,6 +61,7 @@ class Ensemble {
   struct Member;
   class Worker;
   IsGood is_good_;
+  std::int64_t look_every_;
   std::vector<Member> members_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
