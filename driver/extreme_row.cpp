@@ -111,11 +111,12 @@ std::optional<State> start_of(const ExtremeRow& row) {
   if (!row.first_bond) return std::nullopt;
   const Problem problem = make_problem(row.scene);
   State state = problem.initial;
-  std::size_t entry = 0;  // of bond 1-2 in particle 1's row
-  while (problem.bonds.neighbour[entry] != 1) ++entry;
+  double rest = 0.0;  // of bond 1-2
+  problem.bonds.visit_row(0, [&](std::size_t neighbour, std::size_t bond_class) {
+    if (neighbour == 1) rest = problem.classes[bond_class].rest;
+  });
   const double dx = state.x[0] - state.x[1];
   const double dy = state.y[0] - state.y[1];
-  const double rest = problem.classes[problem.bonds.bond_class[entry]].rest;
   const double scale = *row.first_bond * rest / std::hypot(dx, dy);
   state.x[0] = state.x[1] + scale * dx;
   state.y[0] = state.y[1] + scale * dy;

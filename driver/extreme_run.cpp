@@ -94,7 +94,7 @@ class Judge {
     words_ = {scene_};
     if (const auto start = start_of(row_)) {
       const std::string name = row_.name + ".csv";
-      write_file_whole(folder_ / name, state_csv(*start));
+      write_file_whole(folder_ / name, [&start](OutputFile& out) { write_state_csv(out, *start); });
       words_.insert(words_.end(), {"--initial", name});
     }
     if (row_.force) words_.emplace_back("--force");
