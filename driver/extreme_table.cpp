@@ -10,7 +10,7 @@
 namespace bounce {
 namespace {
 
-std::string replaced(std::string text, char what, const std::string& by) {
+std::string replaced(const std::string& text, char what, const std::string& by) {
   std::string out;
   for (const char c : text) out += c == what ? by : std::string(1, c);
   return out;
