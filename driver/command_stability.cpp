@@ -123,18 +123,22 @@ void print_prediction(const Problem& problem, const StepCheck& check) {
              problem.method->name);
 }
 
+// Throws InputError if a stiffness at the start is not finite.
+StepCheck check_start(const Case& it) {
+  const auto check = check_step(it.problem);
+  if (check) return *check;
+  throw it.file.explain(SceneError("initial state", "a bond without a finite stiffness",
+                                   "particles apart from each other"));
+}
+
 // What the stiffness at the start tells.
 void predict(const Options& options) {
   const Case it = load_case(options);
-  const auto check = check_step(it.problem);
-  if (!check) {
-    throw it.file.explain(SceneError("initial state", "a bond without a finite stiffness",
-                                     "particles apart from each other"));
-  }
+  const StepCheck check = check_start(it);
   if (options.json) {
-    fmt::print("{}", prediction_json(options, it.problem, *check));
+    fmt::print("{}", prediction_json(options, it.problem, check));
   } else {
-    print_prediction(it.problem, *check);
+    print_prediction(it.problem, check);
   }
 }
 
@@ -285,6 +289,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
 
 int measure(const Options& options, const std::string& command_line) {
   const Case it = load_case(options);
+  check_start(it);
   const SweepRequest request = request_of(options, it.file);
   const std::vector<SweepCase> cases = make_sweep(request);
   SweepDirectory directory(options.directory(), options.force,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "verify/energy_judge.hpp"
 #include "verify/monitor.hpp"
@@ -110,14 +109,9 @@ State just_above_wall(const Problem& problem, double speed) {
 }
 
 std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
-                                         std::span<const double> omega, std::int64_t look_every,
-                                         std::span<const double> growth,
+                                         std::span<const std::int64_t> steps,
+                                         std::int64_t look_every, std::span<const double> growth,
                                          const TrialOptions& options) {
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = 0; i < problems.size(); ++i) {
-    const double period = 2.0 * std::numbers::pi / (omega[i] * problems[i].step);  // steps
-    steps.push_back(static_cast<std::int64_t>(std::ceil(longest_bounce * period)));
-  }
   std::vector<Course> courses;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     courses.emplace_back(problems[i], growth[i], look_every);
@@ -127,8 +121,8 @@ std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
       problems, steps, look_every,
       [&](std::size_t i, const State& state) { return courses[i].add(state); }, options);
   std::vector<BounceCourse> results(problems.size());
-  const int threads = options.threads == 0 ? omp_get_num_procs() : options.threads;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+#pragma omp parallel for schedule(dynamic, 1) \
+    num_threads(options.threads == 0 ? omp_get_num_procs() : options.threads)
   for (std::size_t i = 0; i < problems.size(); ++i) results[i] = courses[i].result(good[i]);
   return results;
 }

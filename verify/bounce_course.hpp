@@ -31,16 +31,12 @@ struct BounceCourse {
   std::optional<Margin> margin;  ///< the greatest part of the stable step used
 };
 
-/// The longest that a bounce is watched, in periods of the ball's fastest vibration at rest. The
-/// paper's ball takes some 3500, a soft one that is crushed lies for ever.
-inline constexpr double longest_bounce = 12'000.0;
-
-/// Follows the bounces of problems that differ in numbers alone (see run_trials). `omega`: of each
-/// the fastest vibration at its start, 1/s; `growth`: what counts as unstable (EnergyJudge). Each
-/// is looked at every `look_every` steps; a look costs as much as some 50 steps.
+/// Follows the bounces of problems that differ in numbers alone (see run_trials), each for `steps`
+/// at most. Each is looked at every `look_every` steps; a look costs as much as some 50 steps.
+/// `growth`: what counts as unstable (EnergyJudge).
 std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
-                                         std::span<const double> omega, std::int64_t look_every,
-                                         std::span<const double> growth,
+                                         std::span<const std::int64_t> steps,
+                                         std::int64_t look_every, std::span<const double> growth,
                                          const TrialOptions& options);
 
 }  // namespace bounce

@@ -35,8 +35,8 @@ std::vector<bool> run_each_alone(std::span<const Problem> problems,
   for (const Problem& problem : problems) plans.push_back(make_plan(problem, request));
   std::vector<char> good(problems.size());  // not bool: written side by side
   std::exception_ptr failure;
-  const int threads = options.threads == 0 ? omp_get_num_procs() : options.threads;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+#pragma omp parallel for schedule(dynamic, 1) \
+    num_threads(options.threads == 0 ? omp_get_num_procs() : options.threads)
   for (std::size_t i = 0; i < problems.size(); ++i) {
     try {
       const auto look = [&](const State& state) { return is_good(i, state); };

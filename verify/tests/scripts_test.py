@@ -291,5 +291,35 @@ class Peers(unittest.TestCase):
         self.assertTrue(math.isnan(agreement.apart(np.zeros((2, 3)), lost)))
 
 
+@unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
+class Stability(unittest.TestCase):
+    def test_bad_input(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([SCRIPTS / "stability.py", "--runs", folder, "--out", Path(folder) / "out"],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("example-1: no run there", done.stderr)
+            self.assertEqual(list((Path(folder) / "out").iterdir()), [])
+        done = subprocess.run([SCRIPTS / "stability.sh", "--no-such"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+
+    def test_sweeps_are_read_and_drawn(self):
+        from pictures import edge
+        from pictures.run import RunError
+
+        with tempfile.TemporaryDirectory() as folder:
+            sweep = ["stability", "example-2", "--flight-only", "--e", "10,1e5", "--methods", "leapfrog",
+                     "--disturbed", "0.001", "--periods", "20", "--out", f"{folder}/sweep"]
+            subprocess.run([os.environ["BOUNCE_PROGRAM"], *sweep], capture_output=True, check=True)
+            read = edge.read_sweep(Path(folder) / "sweep")
+            self.assertEqual(edge.methods(read), ["leapfrog"])
+            self.assertEqual(len(read.where(passage="flight", sought="dt")), 3)
+            axes = edge.plane(read, {2: (16000.0, 1e-6)}).axes[0]
+            self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
+            (Path(folder) / "edge.csv").write_text("method,E\nleapfrog,ten\n")
+            with self.assertRaises(RunError):
+                edge.read_sweep(Path(folder))
+
+
 if __name__ == "__main__":
     unittest.main()

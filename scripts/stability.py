@@ -1,0 +1,210 @@
+#!/usr/bin/python3
+"""Draws the edge of stability and makes its tables, from what scripts/stability.sh has put into runs/.
+
+Writes OUT/stability.md (for README) and OUT/stability/: the sweeps' edge.csv and table.txt, the
+pictures as PNG and SVG, origin.json. From runs of one clean commit only, unless --allow-dirty.
+"""
+
+import argparse
+import json
+import math
+import os
+import shlex
+import shutil
+import sys
+import tempfile
+from datetime import datetime, timezone
+from pathlib import Path
+
+try:
+    from figures import check_clean, script_commit
+    from pictures import edge
+    from pictures.drawing import plt
+    from pictures.run import RunError, read_run
+except ImportError as missing:
+    sys.exit(f"stability.py: {missing}; install it with: apt-get install python3-matplotlib")
+
+SWEEPS = ("example-1", "example-2")
+THROWS = ("0.767", "3", "10")  # cm/s
+
+
+def read_arguments():
+    root = Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("--runs", type=Path, default=root / "runs", metavar="DIR",
+        help="holds example-N, sweep-example-N and throw-SPEED [runs]")
+    add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
+    add("--allow-dirty", action="store_true", help="take runs of changed trees, too")
+    return parser.parse_args()
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def examples_table(examples):
+    """How far below its edge each example ran."""
+    rows = []
+    for number, run in sorted(examples.items()):
+        stability, scene = run.record["stability"], run.scene
+        worst = stability["greatest_part"]
+        rows.append([f"{number}", f"{scene['law']['elasticity']:g}",
+                     f"{stability['stable_step']:.3g}", f"{1 / stability['part']:.0f}",
+                     f"{1 / worst['part']:.0f}", f"{worst['time']:.2f}", f"{worst['ratio']:.3f}"])
+    return table(["Example", "E", "stable step at the start, s", "Δt = 1e-6 s is below it by a factor of",
+                  "at the worst state of the run", "at t, s", "R/R0 of its stiffest bond"], rows)
+
+
+def number(row, key="stable"):
+    """A measured edge as text; one that was not found says so."""
+    return f"{row[key]:.4g}" if row["outcome"] == "found" else row["outcome"]
+
+
+def flight_table(sweeps):
+    rows = []
+    for scene, sweep in sweeps.items():
+        for method in edge.methods(sweep):
+            flights = sweep.where(method=method, passage="flight", sought="dt")
+            parts = [row["measured_over_predicted"] for row in flights]
+            steps = [row["stable"] * math.sqrt(row["E"]) for row in flights]
+            largest = [row for row in sweep.where(method=method, sought="E")]
+            cells = {row["passage"]: number(row) for row in largest}
+            rows.append([scene, method, f"{len(flights)}",
+                         f"{min(row['E'] for row in flights):g} to {max(row['E'] for row in flights):g}",
+                         f"{min(parts):.3f} to {max(parts):.3f}", f"{min(steps):.4g} to {max(steps):.4g}",
+                         cells.get("flight", "-"), cells.get("bounce", "-")])
+    return table(["scene", "method", "cases", "E", "measured / predicted", "Δt √E, measured",
+                  "largest E at Δt = 1e-6 s, flight", "through a bounce"], rows)
+
+
+def bounce_table(sweeps):
+    """Bounces at the scene's E over speed and gravity, of the first method."""
+    rows = []
+    for scene, sweep in sweeps.items():
+        own = [row for row in sweep.where(passage="bounce", growth=10 * sweep.rows[0]["growth"])]
+        elasticity = own[0]["E"]
+        for row in sweep.where(method=edge.methods(sweep)[0], passage="bounce", sought="dt", E=elasticity):
+            rows.append([scene, f"{row['E']:g}", f"{row['speed']:.3g}", f"{row['g']:g}",
+                         f"{row['predicted'] / row['flight']:.3f}" if row["predicted"] > 0 else "-",
+                         f"{row['stable'] / row['flight']:.3f}" if row["outcome"] == "found"
+                         else row["outcome"], f"{row['smallest_ratio']:.3f}",
+                         "yes" if row["left_wall"] else "stays down"])
+    return table(["scene", "E", "impact, cm/s", "g", "edge / flight's, from the running margin",
+                  "measured", "R/R0 of the stiffest bond", "bounces"], rows)
+
+
+def disturbed_table(sweep):
+    rest = sweep.where(method=edge.methods(sweep)[0], passage="flight", sought="dt")[0]
+    rows = {}
+    for row in sweep.rows:
+        if row["disturbed"] != rest["disturbed"]:
+            at_rest = [r for r in sweep.where(method=row["method"], passage="flight", sought="dt")
+                       if r["E"] == row["E"]][0]
+            part = row["stable"] / at_rest["predicted"]
+            rows.setdefault(row["disturbed"], {})[row["method"]] = f"{part:.3f}"
+    names = edge.methods(sweep)
+    return table(["disturbed by, shortest bonds", *names],
+                 [[f"{size:g}", *(cells.get(name, "-") for name in names)] for size, cells in rows.items()])
+
+
+def criterion_text(sweeps):
+    """By how much the edge moves with the criterion: the largest move, of all."""
+    moves = []
+    for sweep in sweeps.values():
+        usual = {key: sweep.rows[0][key] for key in ("growth", "periods", "disturbed")}
+        for row in sweep.rows:
+            if row["disturbed"] != usual["disturbed"] or all(row[key] == usual[key] for key in usual):
+                continue
+            same = [r for r in sweep.where(method=row["method"], passage=row["passage"], sought="dt")
+                    if (r["E"], r["g"], r["speed"]) == (row["E"], row["g"], row["speed"])]
+            moves.append(abs(row["stable"] / same[0]["stable"] - 1.0))
+    largest = max(moves)
+    if not largest < 0.02:  # true for a NaN
+        return f"With a criterion ten times stricter or looser THE EDGE MOVES by up to {largest:.1%}."
+    return (f"With a criterion ten times stricter or looser (growth, and in flight periods; {len(moves)} cases "
+            f"at the scenes' E) the edge moves by {largest:.1%} at most.")
+
+
+def markdown(examples, sweeps, origins):
+    first = next(iter(sweeps.values()))
+    some = next(iter(origins.values()))
+    listing = first.where(passage="flight", sought="E")[0]
+    return "\n".join([
+        "# The edge of stability\n",
+        f"**Δt = {listing['dt']:g} s really fails above E = {number(listing)}** ({listing['method']}, free "
+        "flight). The examples ran far below their edges:\n",
+        examples_table(examples),
+        "| | |\n| --- | --- |\n| ![](results/stability/edge.png) | ![](results/stability/margin.png) |\n",
+        "Free flight over E, predicted and measured:\n",
+        flight_table(sweeps),
+        f"Through a bounce ({edge.methods(first)[0]}; edge as a part of free flight's):\n",
+        bounce_table(sweeps),
+        "In free flight, with vibrations that are not small: the lowest edge, as a part of that of a ball at "
+        "rest.\n",
+        disturbed_table(first),
+        criterion_text(sweeps) + "\n",
+        f"Made by `scripts/stability.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}; all "
+        "rows: `results/stability/*/edge.csv`.",
+        "",
+    ])
+
+
+def save(figure, folder, name):
+    for kind in ("png", "svg"):
+        figure.savefig(folder / f"{name}.{kind}", metadata={"Date": None} if kind == "svg" else None)
+    plt.close(figure)
+
+
+def make(arguments, folder):
+    """Everything into the folder."""
+    runs = arguments.runs
+    examples = {n: read_run(runs / f"example-{n}") for n in range(1, 8)}
+    throws = {f"impact at {speed} cm/s": read_run(runs / f"throw-{speed}") for speed in THROWS}
+    sweeps = {scene: edge.read_sweep(runs / f"sweep-{scene}") for scene in SWEEPS}
+    origins = {scene: json.loads((runs / f"sweep-{scene}" / "origin.json").read_text()) for scene in SWEEPS}
+    commit = script_commit()
+    if not arguments.allow_dirty:
+        check_clean(examples | throws, commit)
+        for scene, origin in origins.items():
+            if origin["commit"] != examples[1].record["origin"]["commit"]:
+                raise RunError(f"{runs / ('sweep-' + scene)}: commit {origin['commit']} is not that of the runs")
+    (folder / "stability").mkdir()
+    for scene in SWEEPS:
+        (folder / "stability" / scene).mkdir()
+        for name in ("edge.csv", "table.txt", "origin.json", "scene.toml"):
+            shutil.copy(runs / f"sweep-{scene}" / name, folder / "stability" / scene / name)
+    places = {n: (run.scene["law"]["elasticity"], run.scene["time"]["step"]) for n, run in examples.items()}
+    save(edge.plane(sweeps["example-2"], places), folder / "stability", "edge")
+    save(edge.margin(throws), folder / "stability", "margin")
+    record = {"command": shlex.join(["scripts/stability.sh"]), "drawn_by_commit": commit,
+              "date": datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"), "sweeps": origins,
+              "runs": {run.path.name: {"command": run.record["command"],
+                                       "state_hash": run.record["state_hash"],
+                                       "commit": run.record["origin"]["commit"]}
+                       for run in (examples | throws).values()}}
+    (folder / "stability" / "origin.json").write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n")
+    (folder / "stability.md").write_text(markdown(examples, sweeps, origins))
+
+
+def main():
+    arguments = read_arguments()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
+    try:
+        make(arguments, partial)
+        shutil.rmtree(arguments.out / "stability", ignore_errors=True)
+        for name in ("stability", "stability.md"):
+            os.replace(partial / name, arguments.out / name)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+    print(f"stability.py: {arguments.out}/stability.md and {arguments.out}/stability")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except RunError as error:
+        print(f"stability.py: {error}", file=sys.stderr)
+        sys.exit(2)
