@@ -204,7 +204,7 @@ struct Following {
   void add(Measurement& which, Problem problem) {
     cases.push_back(&which);
     steps.push_back(which.steps_of(problem));
-    growth.push_back(cases.front()->what().criterion.growth);
+    growth.push_back(which.what().criterion.growth);
     problems.push_back(std::move(problem));
   }
   [[nodiscard]] std::vector<BounceCourse> run(std::int64_t look_every,
