@@ -256,6 +256,8 @@ int accuracy(const Options& options, const std::string& command_line) {
     reference = make_reference(study);
     rows = run_all(study, reference, options.threads);
   } catch (const Stopped&) {
+  } catch (const ReferenceError& error) {
+    throw InputError(fmt::format("this scene has no reference: {}", error.what()));
   }
   if (!rows) {
     fmt::print(stderr, "bounce: interrupted; nothing was written\n");

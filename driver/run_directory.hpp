@@ -9,9 +9,9 @@ namespace bounce {
 /// The directory of one run. Removed again if it is not published, so that an error leaves nothing.
 class RunDirectory {
  public:
-  /// `marker`: the file by which such a directory is known. Throws InputError if `target` exists and
-  /// may not be replaced, or holds no such file and would be lost, or if a directory cannot be made
-  /// beside it.
+  /// Throws InputError if `target` exists and may not be replaced, or holds no run and would be
+  /// lost, or if a directory cannot be made beside it.
+  /// `marker`: the file by which a directory that may be replaced is known.
   RunDirectory(const std::filesystem::path& target, bool replace, std::string marker = "run.json");
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
