@@ -13,6 +13,7 @@
 
 #include "driver/accuracy_table.hpp"
 #include "driver/commands.hpp"
+#include "driver/course_timing.hpp"
 #include "driver/files.hpp"
 #include "driver/input_error.hpp"
 #include "driver/interrupt.hpp"
@@ -22,11 +23,9 @@
 #include "driver/run_directory.hpp"
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
-#include "driver/step_timing.hpp"
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/accuracy.hpp"
-#include "verify/oracle_stepper.hpp"
 #include "verify/reference_pair.hpp"
 
 namespace bounce {
@@ -64,6 +63,7 @@ struct Study {
   Scene scene;
   std::optional<State> initial;
   Sampling sampling;
+  Setting papers;  // the paper's program, one of them if there is a wall
   std::vector<Setting> settings;
 };
 
@@ -93,11 +93,11 @@ Study make_study(const Options& options) {
   for (const std::string& setting : options.settings) file.set(setting);
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   load_problem(file, options.initial);  // throws what is wrong with it
-  Study study{std::move(file), {}, {}, {}, {}};
+  Study study{std::move(file), {}, {}, {}, {}, {}};
   study.scene = study.file.scene();
   check(options, study.scene);
   if (!options.initial.empty()) study.initial = read_state(options.initial);
-  study.sampling = {options.every, std::llround(study.scene.time.end / options.every)};
+  study.sampling = sampling_of(study.scene, options.every);
   const double decades = options.quick ? std::min(options.decades, 1.5) : options.decades;
   const int per_decade = options.quick ? std::min(options.per_decade, 2) : options.per_decade;
   for (const Method& method : methods()) {
@@ -110,14 +110,15 @@ Study make_study(const Options& options) {
       const bool simple = method.evaluations == 1;
       if (contact == Contact::listing && (!simple || study.scene.walls.empty())) continue;
       const auto more = settings_of(study.scene, study.initial, std::string(method.name), contact,
-                                    options.every, largest_part, decades, per_decade);
+                                    study.sampling, largest_part, decades, per_decade);
       study.settings.insert(study.settings.end(), more.begin(), more.end());
     }
   }
-  const Setting papers{"listing", study.scene.walls.empty() ? Contact::resolved : Contact::listing,
-                       std::llround(options.every / papers_step)};
+  study.papers = {"listing", Contact::listing, std::llround(study.sampling.every / papers_step)};
   auto& all = study.settings;
-  if (std::find(all.begin(), all.end(), papers) == all.end()) all.insert(all.begin(), papers);
+  if (!study.scene.walls.empty() && std::find(all.begin(), all.end(), study.papers) == all.end()) {
+    all.insert(all.begin(), study.papers);
+  }
   return study;
 }
 
@@ -140,7 +141,7 @@ CourseRecord seen(const Problem& problem, int rings, const std::vector<double>& 
 
 Reference make_reference(const Study& study) {
   const Problem problem =
-      problem_of(study.scene, study.initial, {"listing", Contact::resolved, 1}, papers_step);
+      problem_of(study.scene, study.initial, {"listing", Contact::resolved, 1}, study.sampling);
   std::vector<double> times;
   for (std::int64_t s = 0; s <= study.sampling.samples; ++s) {
     times.push_back(study.sampling.every * static_cast<double>(s));
@@ -156,69 +157,6 @@ Reference make_reference(const Study& study) {
                 reference.record);
   return reference;
 }
-
-// Seconds of a step of each method and contact, in flight and where the ball is lowest, and of the
-// oracle; measured by turns.
-class StepTimes {
- public:
-  StepTimes(const Study& study, const std::vector<AccuracyRow>& rows) {
-    std::vector<std::unique_ptr<Stepper>> steppers;
-    for (const AccuracyRow& row : rows) {
-      const auto same = [&](const Kind& k) {
-        return k.method == row.setting.method && k.contact == row.setting.contact;
-      };
-      if (!row.record.finite || std::any_of(kinds_.begin(), kinds_.end(), same)) continue;
-      kinds_.push_back({row.setting.method, row.setting.contact});
-      const Problem problem =
-          problem_of(study.scene, study.initial, row.setting, study.sampling.every);
-      for (const double time : {0.0, row.record.lowest_time}) {
-        steppers.push_back(make_stepper(problem, make_plan(problem, {"auto", "auto", 1})));
-        steppers.back()->advance(std::llround(time / problem.step));
-      }
-    }
-    add_oracle(study, steppers);
-    std::vector<Stepper*> all;
-    for (const auto& stepper : steppers) all.push_back(stepper.get());
-    seconds_ = time_steps(all);
-  }
-  [[nodiscard]] double of(const AccuracyRow& row) const {
-    for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      if (kinds_[k].method != row.setting.method || kinds_[k].contact != row.setting.contact) {
-        continue;
-      }
-      const double share = row.record.finite ? row.record.observables.contact / end_ : 0.0;
-      return (1.0 - share) * seconds_[2 * k] + share * seconds_[2 * k + 1];
-    }
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  /// 0: it cannot run the scene.
-  [[nodiscard]] double of_oracle() const { return oracle_ ? seconds_.back() : 0.0; }
-
- private:
-  struct Kind {
-    std::string method;
-    Contact contact;
-  };
-  void add_oracle(const Study& study, std::vector<std::unique_ptr<Stepper>>& steppers) {
-    end_ = study.sampling.end();
-    Scene scene = study.scene;
-    scene.time.method = "listing";
-    scene.time.step = papers_step;
-    for (Wall& wall : scene.walls) wall.contact = Contact::listing;
-    const Problem problem = make_problem(scene, study.initial);
-    const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
-    try {
-      const Plan plan = make_plan(problem, {"oracle", "auto", 1}, entries);
-      steppers.push_back(make_stepper(problem, plan, entries));
-      oracle_ = true;
-    } catch (const PlanError&) {  // not the listing's ball or law
-    }
-  }
-  std::vector<Kind> kinds_;
-  std::vector<double> seconds_;
-  bool oracle_ = false;
-  double end_ = 0.0;
-};
 
 Json origin_json(const Options& options, const Study& study, const std::string& command) {
   const Origin origin = find_origin();
@@ -263,15 +201,13 @@ int accuracy(const Options& options, const std::string& command_line) {
     fmt::print(stderr, "bounce: interrupted; nothing was written\n");
     return exit_interrupted;
   }
-  const StepTimes times(study, *rows);
+  const CourseTimes times = time_courses(study.scene, study.initial, study.sampling, *rows, true);
   std::vector<TimedRow> timed;
   PapersProgram papers;
-  for (const AccuracyRow& row : *rows) {
-    if (row.setting.method == "listing" && row.setting.contact == Contact::listing &&
-        row.step == study.sampling.every / std::round(study.sampling.every / papers_step)) {
-      papers = {timed.size(), times.of_oracle() * static_cast<double>(row.steps)};
-    }
-    timed.push_back({row, times.of(row) * static_cast<double>(row.steps)});
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const AccuracyRow& row = (*rows)[i];
+    if (row.setting == study.papers) papers = {i, times.oracle * static_cast<double>(row.steps)};
+    timed.push_back({row, times.rows[i]});
   }
   const std::string table = accuracy_table(timed, papers, reference.record, reference.bar);
   write_file_whole(directory.path() / "scene.toml", to_toml(study.scene));

@@ -17,7 +17,7 @@ namespace {
 
 AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                 const Sampling& sampling, const CourseRecord& reference) {
-  const Problem problem = problem_of(scene, initial, setting, sampling.every);
+  const Problem problem = problem_of(scene, initial, setting, sampling);
   const Plan plan = make_plan(problem, {"auto", "auto", 1});
   AccuracyRow row;
   row.setting = setting;
@@ -40,28 +40,34 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
 
 }  // namespace
 
+Sampling sampling_of(const Scene& scene, double every) {
+  const double samples = std::max(1.0, std::round(scene.time.end / every));
+  return {scene.time.end / samples, static_cast<std::int64_t>(samples)};
+}
+
 int rings_of(const Scene& scene) {
   return scene.ball.kind == BallKind::rings ? static_cast<int>(scene.ball.radii.size()) : 0;
 }
 
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
-                   double every) {
+                   const Sampling& sampling) {
   Scene chosen = scene;
   chosen.time.method = setting.method;
-  chosen.time.step = every / static_cast<double>(setting.steps_a_sample);
+  chosen.time.step = sampling.every / static_cast<double>(setting.steps_a_sample);
   for (Wall& wall : chosen.walls) wall.contact = setting.contact;
   Problem problem = make_problem(chosen, initial);
-  problem.step = chosen.time.step;
+  if (sampling.exact) problem.step = chosen.time.step;
   return problem;
 }
 
 std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>& initial,
-                                 const std::string& method, Contact contact, double every,
-                                 double part, double decades, int per_decade) {
-  const Problem problem = problem_of(scene, initial, {method, contact, 1}, every);
+                                 const std::string& method, Contact contact,
+                                 const Sampling& sampling, double part, double decades,
+                                 int per_decade) {
+  const Problem problem = problem_of(scene, initial, {method, contact, 1}, sampling);
   const auto fastest = fastest_vibration(problem, problem.initial);
   if (!fastest || !(fastest->omega > 0.0)) return {};
-  const double fewest = every / (part * stability_limit(*problem.method) / fastest->omega);
+  const double fewest = sampling.every / (part * stability_limit(*problem.method) / fastest->omega);
   std::vector<Setting> settings;
   const int count = static_cast<int>(std::lround(decades * per_decade));
   for (int k = 0; k <= count; ++k) {

@@ -1,11 +1,11 @@
 // Error against cost: one scene by many settings, each compared with a reference.
 //
 //  1. Every course is seen at the same times as the reference, so a step is the sampling interval
-//     over a whole number, and is not rounded to single precision.
+//     over a whole number.
 //  2. Each course is run on the kernel that a plan picks for it on one thread, which is what a user
 //     gets, and half the work of an ensemble where the ball is symmetric; courses side by side.
 //  3. How long a step takes is measured apart from that, one setting at a time
-//     (driver/step_timing.hpp): cores that are busy with other courses would show in it.
+//     (driver/course_timing.hpp): cores that are busy with other courses would show in it.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,14 @@ struct Setting {
 struct Sampling {
   double every = 0.01;       ///< s
   std::int64_t samples = 0;  ///< after the start
+  /// Steps as they are; else rounded to single precision if the scene says so, as `bounce run`
+  /// does.
+  bool exact = true;
   [[nodiscard]] double end() const { return every * static_cast<double>(samples); }
 };
+
+/// As many intervals of about `every` (s) as make up the scene's time.
+Sampling sampling_of(const Scene& scene, double every);
 
 /// A setting and what came of it.
 struct AccuracyRow {
@@ -50,16 +56,17 @@ struct AccuracyRow {
 
 /// The scene by a setting. Throws SceneError.
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
-                   double every);
+                   const Sampling& sampling);
 
 /// Number of rings as measure_shape wants it: 0 for a ball without.
 int rings_of(const Scene& scene);
 
-/// The largest steps first: whole parts of `every` from `part` of the method's stable step at the
-/// start down over `decades`, `per_decade` of them each. Empty if nothing vibrates.
+/// The largest steps first: whole parts of the interval from `part` of the method's stable step at
+/// the start down over `decades`, `per_decade` of them each. Empty if nothing vibrates.
 std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>& initial,
-                                 const std::string& method, Contact contact, double every,
-                                 double part, double decades, int per_decade);
+                                 const std::string& method, Contact contact,
+                                 const Sampling& sampling, double part, double decades,
+                                 int per_decade);
 
 /// Runs all settings; a row each, in their order, whatever the number of threads (0: one a core).
 /// A course that becomes unstable has infinite errors. `done(i)` is called as each ends, never

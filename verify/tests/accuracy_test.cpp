@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "driver/accuracy_table.hpp"
-#include "driver/step_timing.hpp"
+#include "driver/course_timing.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/accuracy.hpp"
 #include "verify/reference_pair.hpp"
@@ -33,7 +33,8 @@ constexpr Sampling sampling{0.01, 40};
 
 const CourseRecord& impact_reference() {
   static const CourseRecord record = [] {
-    const Problem problem = problem_of(impact_scene(), {}, {"listing", Contact::resolved, 1}, 1e-6);
+    const Problem problem =
+        problem_of(impact_scene(), {}, {"listing", Contact::resolved, 1}, sampling);
     std::vector<double> times;
     for (int i = 0; i <= sampling.samples; ++i) times.push_back(sampling.every * i);
     const ReferencePair pair = solve_both(problem, times, {});
@@ -150,7 +151,7 @@ TEST(Accuracy, StopsWhenAsked) {
 
 TEST(Accuracy, SettingsCoverTheDecades) {
   const auto settings =
-      settings_of(impact_scene(), {}, "leapfrog", Contact::resolved, 0.01, 0.9, 3.0, 3);
+      settings_of(impact_scene(), {}, "leapfrog", Contact::resolved, sampling, 0.9, 3.0, 3);
   ASSERT_EQ(settings.size(), 10U);
   // 0.9 of 1.532e-3 s: 7.2515 steps in 0.01 s, so 8.
   EXPECT_EQ(settings.front().steps_a_sample, 8);
