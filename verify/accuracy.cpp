@@ -26,7 +26,9 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
   row.kernel = plan.kernel;
   row.evaluations = row.steps * problem.method->evaluations;
   const auto stepper = make_stepper(problem, plan);
-  CourseGauge gauge(problem, rings_of(scene), reference.free_samples);
+  const bool compares = !reference.energy.empty();
+  CourseGauge gauge(problem, rings_of(scene),
+                    compares ? std::optional(reference.free_samples) : std::nullopt);
   bool good = gauge.add(0.0, problem.initial);
   for (std::int64_t s = 1; good && s <= sampling.samples; ++s) {
     stepper->advance(setting.steps_a_sample);
@@ -34,7 +36,6 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
   }
   row.record = gauge.result();
   row.errors = errors_of(row.record, reference);
-  row.record.before = {};
   return row;
 }
 

@@ -69,8 +69,9 @@ std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>&
                                  int per_decade);
 
 /// Runs all settings; a row each, in their order, whatever the number of threads (0: one a core).
-/// A course that becomes unstable has infinite errors. `done(i)` is called as each ends, never
-/// twice at once; if it returns false, the rest is left out and nothing is returned.
+/// A course whose state is not finite has infinite errors; so have all if the reference has no
+/// samples (they can then be references themselves). `done(i)` is called as each ends, never twice
+/// at once; if it returns false, the rest is left out and nothing is returned.
 std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const Scene& scene, const std::optional<State>& initial, std::span<const Setting> settings,
     const Sampling& sampling, const CourseRecord& reference, int threads,
