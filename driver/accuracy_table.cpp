@@ -80,7 +80,8 @@ std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
   return best;
 }
 
-std::string accuracy_csv(std::span<const TimedRow> rows, const CourseErrors& bar) {
+std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& reference,
+                         const CourseErrors& bar) {
   std::string csv = "method,contact,dt,steps,evaluations,kernel,seconds,error_position";
   for (const ObservableName& each : observable_names) csv += fmt::format(",error_{}", each.name);
   csv += ",error_energy,error_energy_free";
@@ -89,7 +90,11 @@ std::string accuracy_csv(std::span<const TimedRow> rows, const CourseErrors& bar
   for (const ObservableName& each : observable_names) {
     csv += fmt::format(",{:.4g}", bar.observables.*each.value);
   }
-  csv += fmt::format(",{:.4g},{:.4g},,,,,,\n", bar.energy, bar.energy_free);
+  csv += fmt::format(",{:.4g},{:.4g}", bar.energy, bar.energy_free);
+  for (const ObservableName& each : observable_names) {
+    csv += fmt::format(",{:.12g}", reference.observables.*each.value);
+  }
+  csv += "\n";
   for (const TimedRow& timed : rows) {
     const AccuracyRow& row = timed.row;
     csv += fmt::format("{},{},{},{},{},{},{:.4g},{:.4g}", row.setting.method,

@@ -29,7 +29,9 @@ double error_or_bar(double error, double bar);
 std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
                                             const PapersProgram& papers, const CourseErrors& bar);
 
-std::string accuracy_csv(std::span<const TimedRow> rows, const CourseErrors& bar);
+/// The first row is the reference: its error bar and its values.
+std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& reference,
+                         const CourseErrors& bar);
 std::string accuracy_table(std::span<const TimedRow> rows, const PapersProgram& papers,
                            const CourseRecord& reference, const CourseErrors& bar);
 

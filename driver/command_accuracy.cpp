@@ -211,7 +211,7 @@ int accuracy(const Options& options, const std::string& command_line) {
   }
   const std::string table = accuracy_table(timed, papers, reference.record, reference.bar);
   write_file_whole(directory.path() / "scene.toml", to_toml(study.scene));
-  write_file_whole(directory.path() / "accuracy.csv", accuracy_csv(timed, reference.bar));
+  write_file_whole(directory.path() / "accuracy.csv", accuracy_csv(timed, reference.record, reference.bar));
   write_file_whole(directory.path() / "table.txt", table);
   Json origin = origin_json(options, study, command_line);
   origin["oracle_seconds"] = papers.seconds;

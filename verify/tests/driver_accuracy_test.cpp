@@ -1,6 +1,7 @@
 // bounce accuracy as a user runs it. BOUNCE_PROGRAM is the program's path.
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +21,12 @@ std::string contents(const fs::path& path) {
   return text.str();
 }
 
+double number_after(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? std::nan("")
+                                 : std::strtod(text.c_str() + at + word.size(), nullptr);
+}
+
 class DriverAccuracyTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -30,9 +37,9 @@ class DriverAccuracyTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   // The exit code. Words without characters that a shell would read otherwise.
-  int run(const std::string& words) {
-    const std::string line = "cd '" + folder_.string() + "' && '" BOUNCE_PROGRAM "' accuracy " +
-                             words + " >stdout 2>stderr";
+  int run(const std::string& words, const std::string& command = "accuracy") {
+    const std::string line = "cd '" + folder_.string() + "' && '" BOUNCE_PROGRAM "' " + command +
+                             " " + words + " >stdout 2>stderr";
     const int status = std::system(line.c_str());  // NOLINT(cert-env33-c): the test's own words
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -43,9 +50,10 @@ class DriverAccuracyTest : public testing::Test {
 };
 
 // The last 0.002 cm of Example 1's fall, and the first tenth of a second of its contact.
-const std::string short_course =
+const std::string impact =
     "example-1 --set ball.centre='[0.0,7.002]' --set ball.velocity='[0.0,-0.77]' "
-    "--set time.end=0.1 --methods listing,leapfrog --quick ";
+    "--set time.end=0.1 ";
+const std::string short_course = impact + "--methods listing,leapfrog --quick ";
 
 TEST_F(DriverAccuracyTest, WritesItsDirectory) {
   ASSERT_EQ(run(short_course), 0) << err();
@@ -76,6 +84,41 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
   refused("example-1 --threads 1000", "allowed");
   refused("example-9", "example-9");
   refused("example-1 --set wall.contact=glue", "\"listing\" or \"resolved\"");
+}
+
+// What was forecast comes out: the run's last row against the reference's height.
+TEST_F(DriverAccuracyTest, AdviceIsTakenAndTrue) {
+  ASSERT_EQ(run(short_course), 0) << err();
+  const double height = number_after(out(), "  height ");
+  ASSERT_EQ(run(impact + "--error 1e-6", "advise"), 0) << err();
+  const std::string advised = out().substr(out().find("time.method="));
+  const double forecast = number_after(out(), "error of height ");
+  EXPECT_LE(forecast, 1e-6);
+  ASSERT_EQ(run(impact + "--error 1e-6 --out there", "run"), 0) << err();
+  const std::string scene = contents(folder_ / "there/scene.toml");
+  EXPECT_NE(scene.find("contact = \"resolved\""), std::string::npos) << scene;
+  const std::string monitor = contents(folder_ / "there/monitor.csv");
+  const std::string last = monitor.substr(monitor.rfind('\n', monitor.size() - 2) + 1);
+  // The column of the centre's height, by the head.
+  std::stringstream head(monitor.substr(0, monitor.find('\n'))), row(last);
+  std::string name, value;
+  double reached = std::nan("");
+  while (std::getline(head, name, ',') && std::getline(row, value, ',')) {
+    if (name == "cy") reached = std::strtod(value.c_str(), nullptr);
+  }
+  EXPECT_NEAR(reached, height, 3e-6);  // at most three times what was asked
+  EXPECT_NE(contents(folder_ / "there/run.json").find("\"advice\""), std::string::npos);
+}
+
+TEST_F(DriverAccuracyTest, AdviceRefusesWhatNothingReaches) {
+  EXPECT_EQ(run(impact + "--error 1e-30", "advise"), 2);
+  EXPECT_NE(err().find("nothing reaches it; the smallest error of height"), std::string::npos);
+  EXPECT_EQ(run(impact + "--error -1", "advise"), 2);
+  EXPECT_NE(err().find("--error -1: allowed is a number above 0"), std::string::npos) << err();
+  EXPECT_EQ(run(impact + "--error 1 --observable colour", "advise"), 2);
+  EXPECT_NE(err().find("--observable colour: unknown"), std::string::npos) << err();
+  EXPECT_EQ(run(impact + "--error 1e-30 --out there", "run"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "there"));
 }
 
 }  // namespace
