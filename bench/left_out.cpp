@@ -24,26 +24,29 @@ constexpr std::int64_t steps_a_turn = 200;
 
 using Change = std::function<void(Scene&)>;
 
-std::unique_ptr<Stepper> stepper_of(const std::string& kernel, const Change& change) {
-  Scene scene = SceneFile::find("example-2").scene();
-  change(scene);
-  const Problem problem = make_problem(scene);
-  PlanRequest request;
-  request.kernel = kernel;
-  request.threads = 1;
-  return make_stepper(problem, make_plan(problem, request));
-}
-
 struct Side {
   std::string kernel;
   Change change;
+  bool free_flight = false;
+  int threads = 1;
 };
+
+std::unique_ptr<Stepper> stepper_of(const Side& side) {
+  Scene scene = SceneFile::find("example-2").scene();
+  side.change(scene);
+  const Problem problem = make_problem(scene);
+  PlanRequest request;
+  request.kernel = side.kernel;
+  request.threads = side.threads;
+  request.free_flight = side.free_flight;
+  return make_stepper(problem, make_plan(problem, request));
+}
 
 // `with` has what `without` leaves out.
 void add_pair(const std::string& name, const Side& with, const Side& without) {
   const auto run = [with, without](benchmark::State& state) {
-    const auto a = stepper_of(with.kernel, with.change);
-    const auto b = stepper_of(without.kernel, without.change);
+    const auto a = stepper_of(with);
+    const auto b = stepper_of(without);
     std::vector<double> ratios;
     for (auto turn : state) {
       (void)turn;
@@ -59,6 +62,8 @@ void add_pair(const std::string& name, const Side& with, const Side& without) {
 
 void as_it_is(Scene&) {}
 void no_wall(Scene& scene) { scene.walls.clear(); }
+// So near that it never can be left alone, and falls too slowly to touch.
+void at_the_wall(Scene& scene) { scene.ball.centre.y = 7.0001; }
 void no_gravity(Scene& scene) { scene.gravity = {}; }
 // The floor as a wall that might have any direction: its normal is off by less than a bit of y.
 void any_direction(Scene& scene) { scene.walls.front().normal.x = 1e-17; }
@@ -92,6 +97,19 @@ void add_pairs() {
   add_pair("pow: (2.5, 4.5) for (3, 5), in csr", {"csr", law(2.5, 4.5)}, csr);
   add_pair("neighbour index, gathers, each bond twice: csr for ring", csr, ring);
   add_pair("the other half of the ball: ring for mirror", ring, {"mirror", as_it_is});
+  const auto flight = [](const std::string& kernel, const Change& change, int threads = 1) {
+    return Side{kernel, change, true, threads};
+  };
+  for (const char* kernel : {"ring", "mirror", "csr"}) {
+    const std::string in = std::string(", in ") + kernel;
+    add_pair("free flight: the test far from the wall" + in, {kernel, as_it_is}, flight(kernel, as_it_is));
+    add_pair("free flight: the test far from two walls in any direction" + in, {kernel, two_walls},
+             flight(kernel, two_walls));
+    add_pair("free flight: asking for it at the wall" + in, {kernel, at_the_wall},
+             flight(kernel, at_the_wall));
+  }
+  add_pair("free flight: the test far from the wall, in ring by two", {"ring", as_it_is, false, 2}, flight("ring", as_it_is, 2));
+  add_pair("free flight: the test far from the wall, in mirror by two", {"mirror", as_it_is, false, 2}, flight("mirror", as_it_is, 2));
   const Change all = [](Scene& scene) {
     law(2.5, 4.5)(scene);
     any_direction(scene);
