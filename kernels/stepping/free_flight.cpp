@@ -14,7 +14,7 @@ constexpr double force_rounding = 1e-12, distance_rounding = 1e-14, bound_roundi
 
 double length(Vec2 v) { return std::hypot(v.x, v.y); }
 
-// R/R0 where F' is steepest: F'' = 0 there, (R/R0)^(q-p) = q (q+1) / (p (p+1)).
+// R*/R0, where S' = 0: (R/R0)^(q-p) = q (q+1) / (p (p+1)).
 double steepest_place(PairLaw law) {
   const double ratio = law.q * (law.q + 1.0) / (law.p * (law.p + 1.0));
   return std::pow(ratio, 1.0 / (law.q - law.p));
@@ -49,7 +49,8 @@ void FreeFlight::find_kinds(const Neighbours& bonds) {
   std::size_t last = 0;  // neighbours are mostly of the same kind
   for (std::size_t i = 0; i < bonds.particles(); ++i) {
     kind.clear();
-    bonds.visit_row(i, [&kind](std::size_t, std::size_t bond_class) { kind.push_back(bond_class); });
+    bonds.visit_row(i,
+                    [&kind](std::size_t, std::size_t bond_class) { kind.push_back(bond_class); });
     std::sort(kind.begin(), kind.end());
     if (last < kinds_.size() && kinds_[last] == kind) continue;
     last = static_cast<std::size_t>(std::find(kinds_.begin(), kinds_.end(), kind) - kinds_.begin());
@@ -60,7 +61,7 @@ void FreeFlight::find_kinds(const Neighbours& bonds) {
 }
 
 FreeFlight::Rates FreeFlight::rates(const FlightSurvey& survey, double most) const {
-  // Of each class: K, and the force of its bonds at the start.
+  // Of each class: K, and the most that its bonds pull or push at the start.
   std::vector<double> stiff(classes_.size()), force(classes_.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     const Bond& bond = classes_[c];
@@ -69,9 +70,8 @@ FreeFlight::Rates FreeFlight::rates(const FlightSurvey& survey, double most) con
     const double r = std::min(least - 2.0 * most, rest);
     const double strain = std::max({rest - least, greatest - rest, 0.0}) + force_rounding * rest;
     stiff[c] = std::max(stiffness(law_, bond.law, r * r).along, bond.steepest);
-    const double both =
-        r * (force_over_distance(law_, {0.0, bond.law.repulsion, rest}, r * r) -
-             force_over_distance(law_, {bond.law.attraction, 0.0, rest}, r * r));
+    const double both = r * (force_over_distance(law_, {0.0, bond.law.repulsion, rest}, r * r) -
+                             force_over_distance(law_, {bond.law.attraction, 0.0, rest}, r * r));
     force[c] = bond.at_rest + stiff[c] * strain + force_rounding * both;
   }
   double a = 0.0, k = 0.0;
@@ -114,9 +114,10 @@ FreeFlight::Window FreeFlight::window(const FlightSurvey& survey) const {
     const double velocity_rounding = stages_ * (longest_row_ + 2.0) * a_rounding *
                                      (rate.h * (common_speed + own) + 2.0 * (most + rate.a_over_k));
     const double q = rate.a_over_k + n * position_rounding;
-    const double hy = rate.h * own * (1.0 + bound_rounding) + a_rounding * rate.h * speed +
-                      n * velocity_rounding;
-    const double q_n = 0.5 * ((q + hy) * grown + (q - hy) * shrunk) + bound_rounding * (q + hy) * grown;
+    const double hy =
+        rate.h * own * (1.0 + bound_rounding) + a_rounding * rate.h * speed + n * velocity_rounding;
+    const double q_n =
+        0.5 * ((q + hy) * grown + (q - hy) * shrunk) + bound_rounding * (q + hy) * grown;
     return q_n - rate.a_over_k <= most &&
            n * drifts_ * common_speed * (1.0 + bound_rounding) + most < room;
   };

@@ -17,11 +17,11 @@ using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
                                      std::int64_t sum, const Plan& plan) {
-  return with_ring_form(
-      law_form(problem.law), shape.rings, [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
-        return std::make_unique<MirrorStepper<D, Law, R>>(problem, shape, sum, plan.threads,
-                                                          plan.free_flight);
-      });
+  return with_ring_form(law_form(problem.law), shape.rings,
+                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+                          return std::make_unique<MirrorStepper<D, Law, R>>(
+                              problem, shape, sum, plan.threads, plan.free_flight);
+                        });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -84,8 +84,8 @@ class MirrorHalf {
   }
 
   template <class Walls>
-  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
-           std::int64_t steps) {
+  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
+                         const Walls& walls, std::int64_t steps) {
     mend_first(column(0));
     mend_last(column(last_));
     for (std::int64_t s = 0; s < steps; ++s) {
@@ -101,7 +101,8 @@ class MirrorHalf {
   }
 
   /// Of the whole ball: what the other half does is the mirror image.
-  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls, FlightSurvey& to) {
+  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls,
+                           FlightSurvey& to) {
     mend_first(column(0));
     mend_last(column(last_));
     fill_ghosts();

@@ -36,8 +36,8 @@ struct Plan {
   /// Multiplications and multiply-adds of whole vectors a step takes at least; 0: not counted.
   double multiplications = 0.0;
   bool free_flight = false;  ///< the wall test is not run while no particle can reach a wall
-  std::string law;                    ///< which form of the law was compiled in
-  std::string walls;                  ///< which form of the walls was compiled in
+  std::string law;           ///< which form of the law was compiled in
+  std::string walls;         ///< which form of the walls was compiled in
   std::vector<std::string> left_out;  ///< what this scene does not need and this code does not have
   std::vector<std::string> reasons;   ///< why this kernel, and why not the faster ones
 };

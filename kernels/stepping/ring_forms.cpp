@@ -64,7 +64,8 @@ int team_size(int asked, std::int64_t columns) {
 }
 
 RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
-  constexpr std::size_t cached_bytes = std::size_t{256} * 1024;  // a second cache has 512 kB or more
+  constexpr std::size_t cached_bytes =
+      std::size_t{256} * 1024;                // a second cache has 512 kB or more
   constexpr std::size_t columns_alone = 128;  // with so many a tile steps several stages alone
   if (threads > 1) return columns / threads < columns_alone ? RingWalk::team : RingWalk::tiles;
   return columns * bytes_a_column <= cached_bytes ? RingWalk::loop : RingWalk::tiles;

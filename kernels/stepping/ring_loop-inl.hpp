@@ -60,7 +60,7 @@ class RingLoop {
 
   template <class Walls>
   HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
-                      const Walls& walls, std::int64_t steps) {
+                         const Walls& walls, std::int64_t steps) {
     for (std::int64_t s = 0; s < steps; ++s) {
       for (const Constants& c : constants) pass(physics, c, walls);
     }
@@ -73,16 +73,15 @@ class RingLoop {
         [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
   }
 
-  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls, FlightSurvey& to) {
+  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls,
+                           FlightSurvey& to) {
     fill_ghost();
     survey_bonds(physics, column(0), size_, to);
     survey_particles<Columns>(walls, column(0), size_, to);
   }
 
  private:
-  HWY_INLINE void fill_ghost() {
-    Columns::store(turn(Columns::load(column(0)), 1), column(size_));
-  }
+  HWY_INLINE void fill_ghost() { Columns::store(turn(Columns::load(column(0)), 1), column(size_)); }
 
   // One stage.
   template <class Walls>

@@ -22,7 +22,10 @@
 //     thread's time, with one core for two threads fifty times as much. So the work is done in
 //     slices of a millisecond, by the team or by one thread (ring_loop-inl.hpp) as was faster of
 //     late; the bits are the same.
-//  5. Columns are swept in chunks whose reciprocals stay in L1 beside them.
+//  5. A slice is cut where free flight (free_flight.hpp) begins or ends; the time taken is the
+//  whole
+//     slice's.
+//  6. Columns are swept in chunks whose reciprocals stay in L1 beside them.
 //
 // Work beside the whole ball's: one column's bonds a tile, and two short sweeps.
 //
@@ -90,8 +93,7 @@ class RingTeam {
       const int way = choice_.next();
       const auto start = Clock::now();
       in_turns.advance(
-          slice,
-          [&](const auto& walls, FlightSurvey& to) { walk_.survey(physics, walls, to); },
+          slice, [&](const auto& walls, FlightSurvey& to) { walk_.survey(physics, walls, to); },
           [&](const auto& walls, std::int64_t n) {
             if (way == alone) {
               walk_.step(physics, constants, walls, n);

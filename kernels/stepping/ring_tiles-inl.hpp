@@ -145,9 +145,8 @@ class RingTiles {
 
   void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
            std::int64_t steps) {
-    in_turns.advance_walled(steps, [&](const auto& walls, std::int64_t n) {
-      step(physics, constants, walls, n);
-    });
+    in_turns.advance_walled(
+        steps, [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
   }
 
   template <class Walls>

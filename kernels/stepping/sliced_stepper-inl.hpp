@@ -147,7 +147,8 @@ class SlicedStepper final : public StagedStepper {
     SurveySums<D> sums(model().walls);
     for (size_t s = 0; s < bonds_.slices.size(); ++s) {
       const auto px = hn::Load(d, x + s * L), py = hn::Load(d, y + s * L);
-      sums.add(px, py, hn::Load(d, store_.vx.data() + s * L), hn::Load(d, store_.vy.data() + s * L));
+      sums.add(px, py, hn::Load(d, store_.vx.data() + s * L),
+               hn::Load(d, store_.vy.data() + s * L));
       const Slice& slice = bonds_.slices[s];
       for (std::int32_t k = 0; k < slice.all; ++k) {
         const SliceEntry& entry = bonds_.entries[static_cast<size_t>(slice.begin + k)];

@@ -2,8 +2,9 @@
 // tangential velocity multiplied by alpha, its normal velocity by beta. Not-a-number is not
 // mirrored.
 //
-// A step tests; only a vector with a particle behind a wall is mirrored, out of line. So alpha and
-// beta cost nothing while nothing touches, and no instantiation depends on them.
+// A step tests, unless a bound says that nothing can be found (free_flight.hpp); only a vector with
+// a particle behind a wall is mirrored, out of line. So alpha and beta cost nothing while nothing
+// touches, and no instantiation depends on them.
 #if defined(BOUNCE_VECTOR_WALLS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_VECTOR_WALLS_INL_HPP
 #undef BOUNCE_VECTOR_WALLS_INL_HPP

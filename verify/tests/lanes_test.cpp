@@ -35,8 +35,8 @@ template <size_t lanes>
 std::uint64_t mirror_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
   const RingShape shape = *find_rings(problem.bonds);
-  MirrorStepper<D, FixedLaw<4, 2>, 3> stepper(problem, shape,
-                                                     find_mirror_axis(problem, shape).sum, threads, true);
+  MirrorStepper<D, FixedLaw<4, 2>, 3> stepper(problem, shape, find_mirror_axis(problem, shape).sum,
+                                              threads, true);
   stepper.advance(steps);
   return state_hash(stepper.state());
 }
