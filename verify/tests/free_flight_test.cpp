@@ -357,6 +357,8 @@ TEST(FreeFlightBits, BetweenWallsBackwardsBehindAWallAndWithoutNumbers) {
     problem.walls = {Wall{{h, h}, -2.06, 0.3, -0.7}, Wall{{0.0, 1.0}, 0.0, 0.9, -1.0},
                      Wall{{-1.0, 0.0}, -7.02, 0.0, 0.0}, Wall{{0.0, -1.0}, -14.05, 0.0, -0.3}};
     expect_same_bits(problem, 4000, 2);
+    problem.walls[1].contact = Contact::resolved;
+    expect_same_bits(problem, 4000);
     Problem backwards = problem;
     backwards.step = -problem.step;
     expect_same_bits(backwards, 3000);
