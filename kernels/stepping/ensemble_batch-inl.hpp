@@ -122,7 +122,7 @@ struct LaneAnyWalls : LaneWalls<D> {
 /// LaneAnyWalls. R: rings.
 template <class D, class Law, class Walls, int R>
 class RingBatch final : public EnsembleBatch {
-  using Columns = RingColumns<D, Law, Walls, R>;
+  using Columns = RingColumns<D, Law, R>;
   using Constants = typename Columns::Constants;
   static constexpr size_t L = Columns::L;
   static constexpr size_t chunk = 24;  // columns; 40 and more were slower by 1 to 4 %
@@ -152,7 +152,7 @@ class RingBatch final : public EnsembleBatch {
 
   HWY_NOINLINE void run(std::span<const LaneStages> lanes, std::int64_t steps) override {
     const std::vector<Constants> constants = make_constants(lanes);
-    ring_.run(physics_, constants, walls_, steps);
+    ring_.step(physics_, constants, walls_, steps);
   }
 
  private:

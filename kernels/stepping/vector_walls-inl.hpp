@@ -3,10 +3,11 @@
 // resolved, given back the part of the drift that it spent behind the wall. Not-a-number is not
 // mirrored.
 //
-// A step tests; only a vector with a particle behind a wall is mirrored, out of line. So alpha,
-// beta and the rule cost nothing while nothing touches, and no instantiation depends on them. The
-// resolved rule knows where a particle rests by its state alone: on the wall, without velocity. It
-// needs no memory of contacts, so a state is still positions and velocities, and restarts as such.
+// A step tests, unless a bound says that nothing can be found (free_flight.hpp); only a vector with
+// a particle behind a wall is mirrored, out of line. So alpha, beta and the rule cost nothing while
+// nothing touches, and no instantiation depends on them. The resolved rule knows where a particle
+// rests by its state alone: on the wall, without velocity. It needs no memory of contacts, so a
+// state is still positions and velocities, and restarts as such.
 #if defined(BOUNCE_VECTOR_WALLS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_VECTOR_WALLS_INL_HPP
 #undef BOUNCE_VECTOR_WALLS_INL_HPP
