@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "kernels/model/problem.hpp"
 #include "kernels/stepping/method.hpp"
@@ -14,6 +15,7 @@
 #include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/ring_shape.hpp"
 #include "kernels/stepping/slices.hpp"
+#include "verify/tests/method_names.hpp"
 
 namespace bounce {
 namespace {
@@ -64,8 +66,8 @@ std::unique_ptr<Stepper> stepper_of(const Problem& problem, const PlanRequest& r
   return make_stepper(problem, make_plan(problem, request));
 }
 
-// One step, written as plainly as can be.
-State scalar_step(const Problem& problem, const State& from) {
+// One stage, written as plainly as can be.
+State scalar_stage(const Problem& problem, Stage stage, const State& from) {
   State to = from;
   const BondList& bonds = problem.bonds;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -81,10 +83,11 @@ State scalar_step(const Problem& problem, const State& from) {
       ax += f * dx;
       ay += f * dy;
     }
-    to.vx[i] += problem.step * ax;
-    to.vy[i] += problem.step * ay;
-    to.x[i] += problem.step * to.vx[i];
-    to.y[i] += problem.step * to.vy[i];
+    to.vx[i] += stage.kick * problem.step * ax;
+    to.vy[i] += stage.kick * problem.step * ay;
+    if (stage.drift == 0.0) continue;
+    to.x[i] += stage.drift * problem.step * to.vx[i];
+    to.y[i] += stage.drift * problem.step * to.vy[i];
     for (const Wall& w : problem.walls) {
       const double d = wall_distance(w, to.x[i], to.y[i]);
       if (d > 0.0) continue;
@@ -98,6 +101,10 @@ State scalar_step(const Problem& problem, const State& from) {
     }
   }
   return to;
+}
+
+State scalar_step(const Problem& problem, const State& from) {
+  return scalar_stage(problem, {1.0, 1.0}, from);
 }
 
 double largest_difference(const State& a, const State& b) {
@@ -225,7 +232,7 @@ TEST_P(KernelTest, SameBitsForAnyVectorTarget) {
 
 TEST_P(KernelTest, SameBitsAcrossARestart) {
   Scene scene = GetParam().scene;
-  if (GetParam().kernel != "strict") scene.time.method = "leapfrog";  // with its pending kick
+  if (GetParam().kernel != "strict") scene.time.method = "leapfrog";  // with the kick it holds
   const Problem problem = make_problem(scene);
   auto through = stepper_of(problem, forced(GetParam().kernel));
   through->advance(1201);
@@ -242,6 +249,97 @@ TEST_P(KernelTest, SameBitsAcrossARestart) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, KernelTest, testing::ValuesIn(cases()),
                          [](const auto& param) { return param.param.name; });
+
+// ---- every method on every kernel
+
+// The floor is touched from about the 1000th evaluation of the force on, whatever the method.
+Problem touching_problem(const std::string& method, const std::string& kernel) {
+  Scene scene = touching_scene();
+  if (kernel == "mirror") scene.ball.velocity.x = 0.0;
+  scene.time.method = method;
+  scene.time.step *= find_method(method)->evaluations;
+  return make_problem(scene);
+}
+
+class MethodOnKernel : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+ protected:
+  [[nodiscard]] const std::string& kernel() const { return std::get<1>(GetParam()); }
+  [[nodiscard]] std::unique_ptr<Stepper> stepper(int threads = 1) const {
+    return stepper_of(problem_, forced(kernel(), threads));
+  }
+  [[nodiscard]] std::int64_t steps_of(std::int64_t evaluations) const {
+    return evaluations / problem_.method->evaluations;
+  }
+  Problem problem_ = touching_problem(std::get<0>(GetParam()), std::get<1>(GetParam()));
+};
+
+// The table, stage by stage: the first step with all its stages but the last, each further one with
+// that last one joined to its first. The same bound as above, an evaluation for a step.
+TEST_P(MethodOnKernel, StepsLikeItsTable) {
+  const std::span<const Stage> table = problem_.method->stages;
+  const bool holds = problem_.method->first_same_as_last;
+  const std::int64_t steps = steps_of(3000);
+  State plain = problem_.initial;
+  for (std::int64_t s = 0; s < steps; ++s) {
+    Stage first = table.front();
+    if (holds && s > 0) first = {first.kick + table.back().kick, first.drift + table.back().drift};
+    plain = scalar_stage(problem_, first, plain);
+    for (std::size_t k = 1; k + (holds ? 1 : 0) < table.size(); ++k) {
+      plain = scalar_stage(problem_, table[k], plain);
+    }
+  }
+  if (holds) plain = scalar_stage(problem_, table.back(), plain);
+  const auto kernel = stepper();
+  kernel->advance(steps);
+  EXPECT_LE(largest_difference(kernel->state(), plain), 10 * 3000 * 3.6e-15);
+}
+
+// Read, cut, saved and taken over by another team anywhere, also where the stage held over would
+// mirror a particle.
+TEST_P(MethodOnKernel, SameBitsForAnyThreadsReadingsAndRestarts) {
+  const std::int64_t steps = steps_of(2400);
+  const auto through = stepper();
+  through->advance(steps);
+  const std::uint64_t expected = state_hash(through->state());
+  const std::uint64_t held = state_hash(through->save().state);
+  for (const int threads : {1, 2, 3}) {
+    auto cut = stepper(threads);
+    for (std::int64_t step = 0, piece = 1; step < steps; step += piece, piece = piece % 7 + 1) {
+      piece = std::min(piece, steps - step);
+      cut->advance(piece);
+      EXPECT_TRUE(is_finite(cut->state()));
+      if (piece != 3) continue;
+      auto next = stepper(4 - threads);
+      next->restore(cut->save());
+      cut = std::move(next);
+    }
+    EXPECT_EQ(cut->step(), steps);
+    EXPECT_EQ(state_hash(cut->state()), expected) << threads << " threads";
+    EXPECT_EQ(state_hash(cut->save().state), held) << threads << " threads";
+  }
+}
+
+// A state that is read out stands before all walls, though the stage held over has a drift.
+TEST_P(MethodOnKernel, NothingReadOutIsBehindAWall) {
+  const auto kernel = stepper();
+  int touched = 0;
+  for (std::int64_t step = 0; step < steps_of(2400); ++step) {
+    kernel->advance(1);
+    const State now = kernel->state();
+    const double lowest = *std::min_element(now.y.begin(), now.y.end());
+    EXPECT_GE(lowest, 0.0);
+    touched += lowest < 1e-5 ? 1 : 0;
+  }
+  EXPECT_GT(touched, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MethodOnKernel,
+                         testing::Combine(testing::ValuesIn(method_names()),
+                                          testing::Values("csr", "ring", "rings", "mirror")),
+                         [](const auto& param) {
+                           return test_name(std::get<0>(param.param) + "_" +
+                                            std::get<1>(param.param));
+                         });
 
 TEST(StateHash, SeesOneBit) {
   State state(4);
@@ -365,20 +463,21 @@ TEST(Ring, SameBitsWhicheverWayItIsWalked) {
   scene.law.elasticity = 0.1;  // 0.015 cm from particle to particle
   scene.ball.rounding = Rounding::none;
   scene.ball.per_ring = 2048;
-  for (const char* method : {"listing", "leapfrog"}) {
-    scene.time.method = method;
+  for (const Method& method : methods()) {
+    scene.time.method = method.name;
     const Problem problem = make_problem(scene);
     PlanRequest request = forced("ring");
     request.vector = "avx2";
+    const std::int64_t steps = 2011 / method.evaluations, half = steps / 2;
     auto loop = stepper_of(problem, request);
-    loop->advance(2011);
+    loop->advance(steps);
     const std::uint64_t expected = state_hash(loop->state());
     for (const int threads : {2, 3, 4}) {
       request.threads = threads;
       auto tiles = stepper_of(problem, request);
-      tiles->advance(1000);
-      tiles->advance(1011);
-      EXPECT_EQ(state_hash(tiles->state()), expected) << threads << " threads, " << method;
+      tiles->advance(half);
+      tiles->advance(steps - half);
+      EXPECT_EQ(state_hash(tiles->state()), expected) << threads << " threads, " << method.name;
     }
   }
   scene.ball.per_ring = 4096;
