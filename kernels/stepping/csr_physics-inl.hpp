@@ -58,8 +58,8 @@ class FastPhysics {
   }
 
   /// Mirrors what stands behind a wall of the `vectors` vectors from `at` on, just moved.
-  HWY_INLINE void mirror_at_walls(size_t at, size_t vectors, ParticleStore& store, double* new_x,
-                                  double* new_y) const {
+  HWY_INLINE void mirror_at_walls(const CombinationTable& table, size_t at, size_t vectors,
+                                  ParticleStore& store, double* new_x, double* new_y) const {
     if constexpr (Walls::any) {
       V nearest = hn::Set(d, hwy::HighestValue<double>());
       for (size_t i = at; i < at + vectors * L; i += L) {
@@ -67,7 +67,7 @@ class FastPhysics {
         nearest = hn::Min(distance, nearest);
       }
       if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls_.threshold(d))))) {
-        mirror_vectors(at, vectors, store, new_x, new_y);
+        mirror_vectors(table, at, vectors, store, new_x, new_y);
       }
     }
   }
@@ -136,11 +136,12 @@ class FastPhysics {
     move(table, at, px, py, kx, ky, store, new_x, new_y);
   }
 
-  HWY_NOINLINE void mirror_vectors(size_t at, size_t vectors, ParticleStore& store, double* new_x,
-                                   double* new_y) const {
+  HWY_NOINLINE void mirror_vectors(const CombinationTable& table, size_t at, size_t vectors,
+                                   ParticleStore& store, double* new_x, double* new_y) const {
+    const V drift = hn::Set(d, table.drift);
     for (size_t i = at; i < at + vectors * L; i += L) {
       if (hn::AllTrue(d, walls_.clear(d, hn::Load(d, new_x + i), hn::Load(d, new_y + i)))) continue;
-      walls_.mirror(d, new_x + i, new_y + i, store.vx.data() + i, store.vy.data() + i);
+      walls_.mirror(d, drift, new_x + i, new_y + i, store.vx.data() + i, store.vy.data() + i);
     }
   }
 

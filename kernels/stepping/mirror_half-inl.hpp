@@ -187,7 +187,7 @@ class MirrorHalf {
       }
       physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
     }
-    Columns::mirror_at_walls(walls, column(0), last_ + 1, nearest);
+    Columns::mirror_at_walls(c, walls, column(0), last_ + 1, nearest);
     mend_first(column(0));
     mend_last(column(last_));
   }

@@ -249,11 +249,11 @@ class RingColumns {
   static HWY_INLINE V far_away() { return hn::Set(d, hwy::HighestValue<double>()); }
 
   /// After the sweeps: mirrors what stands behind a wall.
-  static HWY_INLINE void mirror_at_walls(const Walls& walls, double* at, size_t columns,
-                                         V nearest) {
+  static HWY_INLINE void mirror_at_walls(const Constants& c, const Walls& walls, double* at,
+                                         size_t columns, V nearest) {
     if constexpr (Walls::any) {
       if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
-        mirror_columns(walls, at, columns);
+        mirror_columns(c, walls, at, columns);
       }
     }
   }
@@ -364,12 +364,13 @@ class RingColumns {
     if constexpr (Walls::any) nearest = hn::Min(walls.distance(d, x, y), nearest);
   }
 
-  static HWY_NOINLINE void mirror_columns(const Walls& walls, double* at, size_t columns) {
+  static HWY_NOINLINE void mirror_columns(const Constants& c, const Walls& walls, double* at,
+                                          size_t columns) {
     for (; columns > 0; --columns, at += block) {
       for (int r = 0; r < R; ++r) {
         if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
         double* x = at + static_cast<size_t>(r) * L;
-        walls.mirror(d, x, x + row, x + 2 * row, x + 3 * row);
+        walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
       }
     }
   }

@@ -84,7 +84,7 @@ class RingLoop {
       physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
     }
     physics.finish_kept(c, walls, first, turn(left, -1), nearest);
-    Columns::mirror_at_walls(walls, first, size_, nearest);
+    Columns::mirror_at_walls(c, walls, first, size_, nearest);
   }
 
   static HWY_INLINE Column turn(const Column& column, int shift) {

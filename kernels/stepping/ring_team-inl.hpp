@@ -223,7 +223,7 @@ class RingTeam {
     physics.template sums<Rest::finish>(c, walls, tile.column(last), 1, u, left, nearest);
     physics.template sums<Rest::drop>(c, walls, tile.before(), 1, u_before, left_of_first, nearest);
     physics.finish_kept(c, walls, tile.column(0), left_of_first, nearest);
-    Columns::mirror_at_walls(walls, tile.column(0), tile.size(), nearest);
+    Columns::mirror_at_walls(c, walls, tile.column(0), tile.size(), nearest);
   }
 
   Walk walk_;

@@ -113,7 +113,7 @@ class RingTile {
     V nearest = Columns::far_away();
     Columns::reciprocals(column(begin), count, u_.data());
     physics.template sums<Rest::finish>(c, walls, column(begin), count, u_.data(), left, nearest);
-    Columns::mirror_at_walls(walls, column(begin), count, nearest);
+    Columns::mirror_at_walls(c, walls, column(begin), count, nearest);
   }
 
   size_t size_, ghosts_;

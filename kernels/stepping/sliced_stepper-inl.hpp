@@ -75,8 +75,8 @@ HWY_INLINE void load_neighbours(D d, const SlicedBonds& bonds, const SliceEntry&
 
 /// Physics: constructed from the problem; `slice(table, bonds, slice, at, x, y, store, nx, ny)`
 /// moves the particles from `at` on, reading all positions in x, y and writing their new ones to
-/// nx, ny; `mirror_at_walls(at, vectors, store, nx, ny)` follows after some slices, so that nothing
-/// need be called among them.
+/// nx, ny; `mirror_at_walls(table, at, vectors, store, nx, ny)` follows after some slices, so that
+/// nothing need be called among them.
 template <class Physics>
 class SlicedStepper final : public StagedStepper {
   using D = typename Physics::D;
@@ -145,7 +145,7 @@ class SlicedStepper final : public StagedStepper {
       for (size_t i = s; i < chunk_end; ++i) {
         physics_.slice(table, bonds_, bonds_.slices[i], i * L, x, y, store_, new_x, new_y);
       }
-      physics_.mirror_at_walls(s * L, chunk_end - s, store_, new_x, new_y);
+      physics_.mirror_at_walls(table, s * L, chunk_end - s, store_, new_x, new_y);
     }
   }
 

@@ -1,5 +1,7 @@
 #include "kernels/stepping/staged_stepper.hpp"
 
+#include "kernels/model/wall_rule.hpp"
+
 namespace bounce {
 namespace {
 
@@ -30,17 +32,15 @@ void kick(const Model& model, double time, State& state) {
   }
 }
 
-// The wall rule for one particle (paper, section 3).
-void mirror(const Wall& wall, std::size_t i, State& state) {
-  const double distance = wall_distance(wall, state.x[i], state.y[i]);
-  if (distance > 0.0) return;
-  const Vec2 n = wall.normal;
-  const double normal = n.x * state.vx[i] + n.y * state.vy[i];
-  const Vec2 tangential{state.vx[i] - normal * n.x, state.vy[i] - normal * n.y};
-  state.x[i] -= 2.0 * distance * n.x;
-  state.y[i] -= 2.0 * distance * n.y;
-  state.vx[i] = wall.alpha * tangential.x + wall.beta * normal * n.x;
-  state.vy[i] = wall.alpha * tangential.y + wall.beta * normal * n.y;
+// What the wall does to one particle after a drift of `drift` (s). Not-a-number is let be.
+void meet(const Wall& wall, double drift, std::size_t i, State& state) {
+  if (!(wall_distance(wall, state.x[i], state.y[i]) <= 0.0)) return;
+  const Motion after =
+      after_wall(wall, drift, {{state.x[i], state.y[i]}, {state.vx[i], state.vy[i]}});
+  state.x[i] = after.position.x;
+  state.y[i] = after.position.y;
+  state.vx[i] = after.velocity.x;
+  state.vy[i] = after.velocity.y;
 }
 
 }  // namespace
@@ -94,11 +94,11 @@ void finish_step(const Model& model, State& state) {
   const Stage stage = model.method->stages.back();
   kick(model, stage.kick * model.step, state);
   if (stage.drift == 0.0) return;
-  const double time = stage.drift * model.step;
+  const double drift = stage.drift * model.step;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    state.x[i] += time * state.vx[i];
-    state.y[i] += time * state.vy[i];
-    for (const Wall& wall : model.walls) mirror(wall, i, state);
+    state.x[i] += drift * state.vx[i];
+    state.y[i] += drift * state.vy[i];
+    for (const Wall& wall : model.walls) meet(wall, drift, i, state);
   }
 }
 
