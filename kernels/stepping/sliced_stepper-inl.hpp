@@ -91,7 +91,7 @@ class SlicedStepper final : public StagedStepper {
         bonds_(slice_bonds(start.bonds, static_cast<int>(L))),
         store_(start.initial.size()),
         threads_(threads) {
-    if (free_flight) turns_.emplace(start);
+    if (free_flight && !start.walls.empty()) turns_.emplace(start);
     SlicedStepper::write(start.initial);
   }
 

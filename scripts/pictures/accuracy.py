@@ -91,7 +91,7 @@ def draw_guides(axes, rows, key):
     low, high = axes.get_ylim()
     left, right = axes.get_xlim()
     for order, label in ((1, "1"), (2, "2"), (4, "4"), (6, "6")):
-        start = (left * (right / left) ** 0.06, high / 3)
+        start = (left * (right / left) ** 0.62, high / 1.5)
         x = [start[0], start[0] * 10 ** (0.9 / order)]
         axes.plot(x, [start[1], start[1] * 10 ** -0.9], color="#8a9099", linewidth=0.8)
         axes.annotate(label, (x[1], start[1] * 10 ** -0.9), fontsize=6.5, color="#5a6068")
@@ -112,7 +112,6 @@ def figure_of(study, title):
         row[0].set_ylabel(label)
     panels[-1][0].set_xlabel("run time on one thread, s")
     panels[-1][1].set_xlabel("force evaluations (short lines: orders 1, 2, 4, 6)")
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    panels[-1][0].legend(loc="upper left", bbox_to_anchor=(0.0, -0.25), ncols=3, frameon=False, fontsize=8)
     drawing.set_caption(figure, title)
     return figure
