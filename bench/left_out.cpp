@@ -3,7 +3,7 @@
 //
 // Each repetition takes turns of 200 steps of the one and 200 of the other, so that a clock that
 // swings hits both; the gain is the median of their ratios. A pair of the same plan twice says what
-// cannot be told from nothing.
+// cannot be told from nothing. Free flight is left out of both, but where a row is about it.
 #include <benchmark/benchmark.h>
 
 #include <functional>
@@ -24,26 +24,29 @@ constexpr std::int64_t steps_a_turn = 200;
 
 using Change = std::function<void(Scene&)>;
 
-std::unique_ptr<Stepper> stepper_of(const std::string& kernel, const Change& change) {
-  Scene scene = SceneFile::find("example-2").scene();
-  change(scene);
-  const Problem problem = make_problem(scene);
-  PlanRequest request;
-  request.kernel = kernel;
-  request.threads = 1;
-  return make_stepper(problem, make_plan(problem, request));
-}
-
 struct Side {
   std::string kernel;
   Change change;
+  bool free_flight = false;
+  int threads = 1;
 };
+
+std::unique_ptr<Stepper> stepper_of(const Side& side) {
+  Scene scene = SceneFile::find("example-2").scene();
+  side.change(scene);
+  const Problem problem = make_problem(scene);
+  PlanRequest request;
+  request.kernel = side.kernel;
+  request.threads = side.threads;
+  request.free_flight = side.free_flight;
+  return make_stepper(problem, make_plan(problem, request));
+}
 
 // `with` has what `without` leaves out.
 void add_pair(const std::string& name, const Side& with, const Side& without) {
   const auto run = [with, without](benchmark::State& state) {
-    const auto a = stepper_of(with.kernel, with.change);
-    const auto b = stepper_of(without.kernel, without.change);
+    const auto a = stepper_of(with);
+    const auto b = stepper_of(without);
     std::vector<double> ratios;
     for (auto turn : state) {
       (void)turn;
@@ -59,6 +62,8 @@ void add_pair(const std::string& name, const Side& with, const Side& without) {
 
 void as_it_is(Scene&) {}
 void no_wall(Scene& scene) { scene.walls.clear(); }
+// So near that no step is free of the wall.
+void at_the_floor(Scene& scene) { scene.ball.centre.y = 7.0001; }
 void no_gravity(Scene& scene) { scene.gravity = {}; }
 // The floor as a wall that might have any direction: its normal is off by less than a bit of y.
 void any_direction(Scene& scene) { scene.walls.front().normal.x = 1e-17; }
@@ -68,12 +73,34 @@ void slippery(Scene& scene) {
   scene.walls.front().beta = -1.0;
 }
 
+void nothing(Scene& scene) {
+  no_wall(scene);
+  no_gravity(scene);
+}
+
 Change law(double p, double q) {
   return [p, q](Scene& scene) {
     scene.law.p = p;
     scene.law.q = q;
     scene.law.rest = Rest::geometry;
   };
+}
+
+// The wall test where no particle can reach a wall; and what it costs to ask in vain.
+void add_free_flight() {
+  const auto add = [](const std::string& what, const std::string& kernel, const Change& change,
+                      int threads) {
+    const std::string by = threads == 1 ? "" : " by " + std::to_string(threads) + " threads";
+    add_pair("free flight: " + what + ", in " + kernel + by, {kernel, change, false, threads},
+             {kernel, change, true, threads});
+  };
+  for (const char* kernel : {"ring", "mirror", "csr"}) {
+    add("the test far from the floor", kernel, as_it_is, 1);
+    add("the test far from two walls", kernel, two_walls, 1);
+    add("nothing, at the floor, where it is asked for in vain", kernel, at_the_floor, 1);
+  }
+  add("the test far from the floor", "ring", as_it_is, 2);
+  add("the test far from the floor", "mirror", as_it_is, 2);
 }
 
 void add_pairs() {
@@ -92,6 +119,18 @@ void add_pairs() {
   add_pair("pow: (2.5, 4.5) for (3, 5), in csr", {"csr", law(2.5, 4.5)}, csr);
   add_pair("neighbour index, gathers, each bond twice: csr for ring", csr, ring);
   add_pair("the other half of the ball: ring for mirror", ring, {"mirror", as_it_is});
+  add_free_flight();
+  const auto with = [](const Change& exponents) {
+    return [exponents](Scene& scene) {
+      exponents(scene);
+      any_direction(scene);
+      two_walls(scene);
+    };
+  };
+  add_pair("together, in ring: (7, 13), two walls in any direction, gravity for (3, 5) alone",
+           {"ring", with(law(7, 13))}, {"ring", nothing});
+  add_pair("together, csr for mirror: the same with variable exponents (3, 7)",
+           {"csr", with(law(3, 7))}, {"mirror", nothing});
   const Change all = [](Scene& scene) {
     law(2.5, 4.5)(scene);
     any_direction(scene);

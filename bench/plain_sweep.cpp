@@ -11,8 +11,8 @@ namespace bounce {
 namespace HWY_NAMESPACE {
 
 std::unique_ptr<Stepper> make_sweep(const Problem& problem, const RingShape& shape, int threads) {
-  using Sweep = RingStepper<hn::ScalableTag<double>, FixedLaw<4, 2>, Floor, 3>;
-  return std::make_unique<Sweep>(problem, shape, threads, 1);
+  using Sweep = RingStepper<hn::ScalableTag<double>, FixedLaw<4, 2>, 3>;
+  return std::make_unique<Sweep>(problem, shape, threads, false, 1);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

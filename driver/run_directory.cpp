@@ -39,7 +39,8 @@ void check_run_directory(const fs::path& target, bool replace, const std::string
   const bool is_empty = fs::is_directory(path, ignored) && fs::is_empty(path, ignored);
   if (fs::is_symlink(path, ignored) || !(holds_a_run || is_empty)) {
     throw InputError(fmt::format(
-        "--out {}: is not the directory of a run; --force replaces nothing else", target.string()));
+        "--out {}: is not the directory of a run (no {} there); --force replaces nothing else",
+        target.string(), marker));
   }
 }
 

@@ -101,6 +101,9 @@ Words<Rounding> words_of(Rounding) {
 Words<BallKind> words_of(BallKind) {
   return {{{"rings", BallKind::rings}, {"disc", BallKind::disc}}};
 }
+Words<Contact> words_of(Contact) {
+  return {{{"listing", Contact::listing}, {"resolved", Contact::resolved}}};
+}
 Words<Rest> words_of(Rest) { return {{{"listing", Rest::listing}, {"geometry", Rest::geometry}}}; }
 
 template <class Choice>
@@ -225,6 +228,9 @@ const std::vector<Key<Wall>>& wall_keys() {
       wall_key(
           "beta", "normal speed returned: -1 (elastic) to 0",
           [](Wall & w) -> auto& { return w.beta; }),
+      wall_key(
+          "contact", "listing: the paper's rule; resolved: its limit for small steps",
+          [](Wall & w) -> auto& { return w.contact; }),
   };
   return keys;
 }

@@ -27,8 +27,9 @@ def main():
         sys.exit("left_out_table.py: a row has no gain")
     context = data["context"]
     print("# What leaving out saves\n")
-    print("Time of a step with it / without it, one ball in free flight, one thread; median, least and")
-    print(f"greatest of {len(rows[0][1])} repetitions, each the median of 401 pairs of 200 steps taken in turns.\n")
+    print("Time of a step with it / without it, one ball in the air, one thread but where a row says otherwise;")
+    print(f"median, least and greatest of {len(rows[0][1])} repetitions, each the median of 401 pairs of 200 steps")
+    print("taken in turns.\n")
     print("| left out | gain | least | greatest |")
     print("| --- | --- | --- | --- |")
     for name, same in rows:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernels/model/wall_rule.hpp"
 #include "verify/monitor.hpp"
 #include "verify/oracle_stepper.hpp"
 #include "verify/powers.hpp"
@@ -49,15 +50,20 @@ double distance_rounding(const Wall& wall, const Particle& p) {
   return rule_roundings * unit_roundoff * (std::abs(p.x) + std::abs(p.y) + std::abs(wall.offset));
 }
 
-// The wall rule (paper, section 3) for a particle that is to be mirrored.
-Particle mirrored(const Wall& wall, const Particle& p) {
-  const Vec2 n = wall.normal;
-  const double twice = 2.0 * wall_distance(wall, p.x, p.y);
-  const double normal = n.x * p.vx + n.y * p.vy;
-  const Vec2 tangential{p.vx - normal * n.x, p.vy - normal * n.y};
-  return {p.x - twice * n.x, p.y - twice * n.y,
-          wall.alpha * tangential.x + wall.beta * normal * n.x,
-          wall.alpha * tangential.y + wall.beta * normal * n.y};
+// The wall's rule for a particle that is behind it after a drift of `drift` (s).
+Particle mirrored(const Wall& wall, double drift, const Particle& p) {
+  const Motion after = after_wall(wall, drift, {{p.x, p.y}, {p.vx, p.vy}});
+  return {after.position.x, after.position.y, after.velocity.x, after.velocity.y};
+}
+
+// What rounding may do to where the resolved rule lets a particle cross a wall, cm along the wall:
+// the distance's rounding over the slope of its path, at most all of the drift.
+double crossing_rounding(const Wall& wall, double drift, const Particle& p) {
+  if (wall.contact != Contact::resolved) return 0.0;
+  const double normal = std::abs(wall.normal.x * p.vx + wall.normal.y * p.vy);
+  const double along = std::abs(wall.normal.x * p.vy - wall.normal.y * p.vx);
+  const double slope = distance_rounding(wall, p) / (std::abs(drift) * normal);
+  return std::abs(drift) * along * (slope < 1.0 ? slope : 1.0);
 }
 
 // One mirroring of a particle at one wall, and where it leads.
@@ -72,20 +78,22 @@ struct Verdict {
   bool missed = false, otherwise = false;
 };
 
-bool is_near(const Particle& a, const Particle& b, const Particle& sizes, double length) {
+bool is_near(const Particle& a, const Particle& b, const Particle& sizes, double length,
+             double crossing) {
   const double place =
-      rule_roundings * unit_roundoff * (std::abs(sizes.x) + std::abs(sizes.y) + length);
+      crossing + rule_roundings * unit_roundoff * (std::abs(sizes.x) + std::abs(sizes.y) + length);
   const double speed = rule_roundings * unit_roundoff * (std::abs(sizes.vx) + std::abs(sizes.vy));
   return std::abs(a.x - b.x) <= place && std::abs(a.y - b.y) <= place &&
          std::abs(a.vx - b.vx) <= speed && std::abs(a.vy - b.vy) <= speed;
 }
 
 // A particle within rounding of a wall may be mirrored or not; else the rule decides.
-Verdict judge(const std::vector<Wall>& walls, const Particle& before, const Particle& after) {
+Verdict judge(const std::vector<Wall>& walls, double drift, const Particle& before,
+              const Particle& after) {
   Verdict verdict;
   const bool changed = !same_bits(before, after);
   Particle now = before;
-  double offsets = 0.0;
+  double offsets = 0.0, crossing = 0.0;
   bool borderline = false;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const double distance = wall_distance(walls[w], now.x, now.y);
@@ -93,17 +101,18 @@ Verdict judge(const std::vector<Wall>& walls, const Particle& before, const Part
     offsets += std::abs(walls[w].offset);
     borderline = borderline || std::abs(distance) <= rounding;
     if (distance > rounding || (!changed && distance >= -rounding)) continue;
-    now = mirrored(walls[w], now);
+    crossing += crossing_rounding(walls[w], drift, now);
+    now = mirrored(walls[w], drift, now);
     verdict.mirrorings.push_back({w, now});
   }
   if (!changed) {
     // Mirrored into the very same bits: a particle without velocity, at the wall.
-    verdict.missed = !is_near(now, after, before, offsets) && !borderline;
+    verdict.missed = !is_near(now, after, before, offsets, crossing) && !borderline;
     verdict.mirrorings.clear();
     return verdict;
   }
-  verdict.otherwise =
-      verdict.mirrorings.empty() || (!is_near(now, after, before, offsets) && !borderline);
+  verdict.otherwise = verdict.mirrorings.empty() ||
+                      (!is_near(now, after, before, offsets, crossing) && !borderline);
   if (!verdict.mirrorings.empty()) verdict.mirrorings.back().after = after;
   return verdict;
 }
@@ -303,7 +312,8 @@ void BookingStepper::step_by_stages(const Snapshot& start) {
     const State before = kernels.without->save().state;
     now.state = kernels.with_walls->save().state;
     now.kick_pending = false;
-    if (!same_bits(before, now.state)) book(before, now.state);
+    if (!same_bits(before, now.state))
+      book(kernels.stage[0].drift * problem_.step, before, now.state);
   }
   // The stages' bits are those of the step (a test holds that), or these are not this run's books.
   if (!same_bits(now.state, with_walls_->save().state)) {
@@ -312,7 +322,7 @@ void BookingStepper::step_by_stages(const Snapshot& start) {
   }
 }
 
-void BookingStepper::book(const State& before, const State& after) {
+void BookingStepper::book(double drift, const State& before, const State& after) {
   const double energy = energy_of(problem_, before, books_.energy_rounding);
   books_.integrator.add(energy - books_.energy);
   Bookkeeper keeper(problem_, before, books_);
@@ -323,7 +333,7 @@ void BookingStepper::book(const State& before, const State& after) {
                     [&](const Wall& wall) { return wall_distance(wall, from.x, from.y) > 0.0; })) {
       continue;
     }
-    const Verdict verdict = judge(problem_.walls, from, to);
+    const Verdict verdict = judge(problem_.walls, drift, from, to);
     for (const Mirroring& mirroring : verdict.mirrorings) keeper.add(i, mirroring);
     books_.missed += verdict.missed ? 1 : 0;
     books_.otherwise += verdict.otherwise ? 1 : 0;

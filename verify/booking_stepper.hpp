@@ -10,7 +10,7 @@
 //     without walls is the one before the reflections, the state with walls the one after. A
 //     particle whose bits differ was mirrored. So no wall rule is written again to make the run:
 //     its bits are the kernel's own, and a run with books ends in the state of the run without.
-//  3. The rule of the paper is applied to the state before, to say which wall mirrored a particle,
+//  3. The wall's rule is applied to the state before, to say which wall mirrored a particle,
 //     and to see that the kernel did just that (within rounding), no more and no less.
 //  4. Particles are booked one after another in their order: a bond's energy changes against the
 //     neighbours where they stand at that moment.
@@ -62,7 +62,7 @@ class BookingStepper final : public Stepper {
   void open_books();
   void add_stage(Stage stage, std::vector<std::size_t>& sequence);
   void step_by_stages(const Snapshot& start);
-  void book(const State& before, const State& after);
+  void book(double drift, const State& before, const State& after);
   void look_behind_walls();
   void fault();
 

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/model/wall_rule.hpp"
+
 namespace bounce {
 namespace {
 
@@ -63,6 +65,7 @@ std::string Oracle::refusal(const Scene& scene) {
   if (scene.time.method != "listing") {
     return "the listing has its own method, not \"" + scene.time.method + "\"";
   }
+  if (any_resolved(scene.walls)) return "the listing's walls are those of contact \"listing\"";
   return {};
 }
 

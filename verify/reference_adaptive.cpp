@@ -113,10 +113,10 @@ class AdaptiveFlow {
   std::int64_t evaluations_ = 0;
 };
 
-// An error of velocity dv becomes one of position, dv / w, in a vibration of angular frequency w. The
-// motions that matter to a bounce are slower than the fastest vibration by about as much as a ring
-// has particles. (Measured on Example 1, free flight: errors of positions at t = 1 are then 50 times
-// the tolerance times the ball's size in cm; with the fastest vibration itself, 1000 times.)
+// An error of velocity dv becomes one of position, dv / w, in a vibration of angular frequency w.
+// The motions that matter to a bounce are slower than the fastest vibration by about as much as a
+// ring has particles. (Measured on Example 1, free flight: errors of positions at t = 1 are then 50
+// times the tolerance times the ball's size in cm; with the fastest vibration itself, 1000 times.)
 constexpr double slow_share = 128.0;
 
 // Greatest distance of a particle from the first one, as a measure of the ball, cm; above 0.

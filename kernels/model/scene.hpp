@@ -62,14 +62,21 @@ struct LawSpec {
   Rest rest = Rest::listing;
 };
 
+/// How a wall meets a particle (wall_rule.hpp).
+enum class Contact {
+  listing,   ///< the paper's: mirrored at the end of the drift that crossed the wall
+  resolved,  ///< its limit for small steps: the crossing located, what is pressed on sticks
+};
+
 /// A rigid half-plane. The ball stays where normal.x > offset; a particle that does not is
 /// mirrored, its tangential velocity multiplied by alpha and its normal velocity by beta (paper,
-/// section 3).
+/// section 3), or what `contact` says.
 struct Wall {
   Vec2 normal{0.0, 1.0};
   double offset = 0.0;  ///< cm
   double alpha = 0.0;   ///< 0 (full friction) to 1 (frictionless)
   double beta = 0.0;    ///< -1 (elastic) to 0
+  Contact contact = Contact::listing;
 };
 
 /// Step and length of a run.

@@ -15,27 +15,25 @@ namespace HWY_NAMESPACE {
 using D = hn::ScalableTag<double>;
 
 template <class Law>
-std::unique_ptr<Stepper> csr_of(const Problem& problem, int threads) {
-  if (problem.walls.empty()) {
-    return std::make_unique<SlicedStepper<FastPhysics<D, Law, NoWalls>>>(problem, threads);
-  }
-  return std::make_unique<SlicedStepper<FastPhysics<D, Law, AnyWalls>>>(problem, threads);
+std::unique_ptr<Stepper> csr_of(const Problem& problem, const Plan& plan) {
+  return std::make_unique<SlicedStepper<FastPhysics<D, Law>>>(problem, plan.threads,
+                                                              plan.free_flight);
 }
 
-std::unique_ptr<Stepper> make_csr(const Problem& problem, int threads) {
+std::unique_ptr<Stepper> make_csr(const Problem& problem, const Plan& plan) {
   switch (law_form(problem.law)) {
     case LawForm::three_five:
-      return csr_of<FixedLaw<4, 2>>(problem, threads);
+      return csr_of<FixedLaw<4, 2>>(problem, plan);
     case LawForm::seven_thirteen:
-      return csr_of<FixedLaw<8, 6>>(problem, threads);
+      return csr_of<FixedLaw<8, 6>>(problem, plan);
     case LawForm::two_four:
-      return csr_of<FixedLaw<3, 2>>(problem, threads);
+      return csr_of<FixedLaw<3, 2>>(problem, plan);
     case LawForm::odd:
-      return csr_of<OddLaw>(problem, threads);
+      return csr_of<OddLaw>(problem, plan);
     case LawForm::general:
       break;
   }
-  return csr_of<GeneralLaw>(problem, threads);
+  return csr_of<GeneralLaw>(problem, plan);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -51,13 +49,14 @@ std::string prepare_csr(const Problem& problem, const PlanRequest& request, Plan
   plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   const bool large = problem.initial.size() >= particles_worth_a_team;
   plan.threads = request.threads != 0 ? request.threads : large ? omp_get_max_threads() : 1;
+  leave_out_free_flight(problem, request, plan);
   plan.reasons.emplace_back("csr runs any neighbour list, law and walls");
   return {};
 }
 
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
-  return plan.vector == VectorTarget::avx512 ? N_AVX3::make_csr(problem, plan.threads)
-                                             : N_AVX2::make_csr(problem, plan.threads);
+  return plan.vector == VectorTarget::avx512 ? N_AVX3::make_csr(problem, plan)
+                                             : N_AVX2::make_csr(problem, plan);
 }
 
 }  // namespace

@@ -68,11 +68,13 @@ class LaneWalls {
         for (size_t l = 0; l < L; ++l) values[l] = value_of(lanes[l]);
         return hn::Load(D(), values);
       };
-      vectors_[w] = {each([](const Wall& wall) { return wall.normal.x; }),
-                     each([](const Wall& wall) { return wall.normal.y; }),
-                     each([](const Wall& wall) { return wall.offset; }),
-                     each([](const Wall& wall) { return wall.alpha; }),
-                     each([](const Wall& wall) { return wall.beta; })};
+      vectors_[w] = {
+          each([](const Wall& wall) { return wall.normal.x; }),
+          each([](const Wall& wall) { return wall.normal.y; }),
+          each([](const Wall& wall) { return wall.offset; }),
+          each([](const Wall& wall) { return wall.alpha; }),
+          each([](const Wall& wall) { return wall.beta; }),
+          each([](const Wall& wall) { return wall.contact == Contact::resolved ? 1.0 : 0.0; })};
     }
   }
 
@@ -89,8 +91,8 @@ struct LaneFloors : LaneWalls<D> {
   HWY_INLINE hn::Mask<D> clear(D d, V, V y) const { return hn::Gt(y, threshold(d)); }
   HWY_INLINE V distance(D, V, V y) const { return y; }
   HWY_INLINE V threshold(D) const { return (*this)[0].offset; }
-  void mirror(D d, double* x, double* y, double* vx, double* vy) const {
-    reflect(d, (*this)[0], x, y, vx, vy, 1);
+  void mirror(D d, V drift, double* x, double* y, double* vx, double* vy) const {
+    reflect(d, (*this)[0], drift, x, y, vx, vy);
   }
 };
 
@@ -111,8 +113,8 @@ struct LaneAnyWalls : LaneWalls<D> {
     return nearest;
   }
   HWY_INLINE V threshold(D d) const { return hn::Zero(d); }
-  void mirror(D d, double* x, double* y, double* vx, double* vy) const {
-    for (const WallVectors<V>& wall : this->vectors_) reflect(d, wall, x, y, vx, vy, 1);
+  void mirror(D d, V drift, double* x, double* y, double* vx, double* vy) const {
+    for (const WallVectors<V>& wall : this->vectors_) reflect(d, wall, drift, x, y, vx, vy);
   }
 };
 
@@ -120,7 +122,7 @@ struct LaneAnyWalls : LaneWalls<D> {
 /// LaneAnyWalls. R: rings.
 template <class D, class Law, class Walls, int R>
 class RingBatch final : public EnsembleBatch {
-  using Columns = RingColumns<D, Law, Walls, R>;
+  using Columns = RingColumns<D, Law, R>;
   using Constants = typename Columns::Constants;
   static constexpr size_t L = Columns::L;
   static constexpr size_t chunk = 24;  // columns; 40 and more were slower by 1 to 4 %
@@ -150,7 +152,7 @@ class RingBatch final : public EnsembleBatch {
 
   HWY_NOINLINE void run(std::span<const LaneStages> lanes, std::int64_t steps) override {
     const std::vector<Constants> constants = make_constants(lanes);
-    ring_.run(physics_, constants, walls_, steps);
+    ring_.step(physics_, constants, walls_, steps);
   }
 
  private:

@@ -16,12 +16,12 @@ namespace HWY_NAMESPACE {
 using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
-                                     std::int64_t sum, int threads) {
-  return with_ring_form(law_form(problem.law), shape.rings, [&]<class Law, int R>() {
-    return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
-      return std::make_unique<MirrorStepper<D, Law, Walls, R>>(problem, shape, sum, threads);
-    });
-  });
+                                     std::int64_t sum, const Plan& plan) {
+  return with_ring_form(law_form(problem.law), shape.rings,
+                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+                          return std::make_unique<MirrorStepper<D, Law, R>>(
+                              problem, shape, sum, plan.threads, plan.free_flight);
+                        });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -51,6 +51,7 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
     return std::to_string(plan.threads) + " threads are too many for " +
            std::to_string(columns + 1) + " columns of vectors: a thread needs three";
   }
+  leave_out_free_flight(problem, request, plan);
   plan.multiplications = ring_multiplications(problem, form.shape.rings, columns);
   plan.reasons.emplace_back(
       "the ball, its walls and gravity are left-right symmetric: half of it "
@@ -65,8 +66,8 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
   const RingForm form = find_ring_form(problem);
   const std::int64_t sum = find_mirror_axis(problem, form.shape).sum;
-  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum, plan.threads)
-                         : N_AVX2::make_mirror(problem, form.shape, sum, plan.threads);
+  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum, plan)
+                         : N_AVX2::make_mirror(problem, form.shape, sum, plan);
 }
 
 }  // namespace

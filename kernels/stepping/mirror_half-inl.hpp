@@ -38,6 +38,8 @@
 
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_forms-inl.hpp"
+#include "kernels/stepping/ring_survey-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -82,13 +84,32 @@ class MirrorHalf {
   }
 
   template <class Walls>
-  void run(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
-           std::int64_t steps) {
+  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
+                         const Walls& walls, std::int64_t steps) {
     mend_first(column(0));
     mend_last(column(last_));
     for (std::int64_t s = 0; s < steps; ++s) {
       for (const Constants& c : constants) pass(physics, c, walls);
     }
+  }
+
+  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
+           std::int64_t steps) {
+    in_turns.advance(
+        steps, [&](const auto& walls, FlightSurvey& to) { survey(physics, walls, to); },
+        [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
+  }
+
+  /// Of the whole ball: what the other half does is the mirror image.
+  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls,
+                           FlightSurvey& to) {
+    mend_first(column(0));
+    mend_last(column(last_));
+    fill_ghosts();
+    survey_bonds(physics, before(), last_ + 2, to);
+    survey_particles<Columns>(walls, column(0), last_ + 1, to);
+    to.vx.add(-to.vx.least);
+    to.vx.add(-to.vx.greatest);
   }
 
   // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
@@ -165,6 +186,13 @@ class MirrorHalf {
     }
   }
 
+  HWY_INLINE void fill_ghosts() {
+    const double* const first[told] = {column(0), column(1), column(2)};
+    const double* const last[told] = {column(last_), column(last_ - 1), column(last_ - 2)};
+    Columns::store(before_first(first, last), before());
+    Columns::store(behind_last(first, last), behind());
+  }
+
   // One stage. As in the ring kernel, what was moved last before is wanted late.
   template <class Walls>
   HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls) {
@@ -172,10 +200,7 @@ class MirrorHalf {
     double* u_first = u + chunk * Columns::terms;
     V nearest = Columns::far_away();
     Column left;
-    const double* const first[told] = {column(0), column(1), column(2)};
-    const double* const last[told] = {column(last_), column(last_ - 1), column(last_ - 2)};
-    Columns::store(before_first(first, last), before());
-    Columns::store(behind_last(first, last), behind());
+    fill_ghosts();
     for (size_t k = 1; k <= last_; k += chunk) {
       const size_t count = std::min(chunk, last_ + 1 - k);
       Columns::reciprocals(column(k), count, u);
@@ -187,7 +212,7 @@ class MirrorHalf {
       }
       physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
     }
-    Columns::mirror_at_walls(walls, column(0), last_ + 1, nearest);
+    Columns::mirror_at_walls(c, walls, column(0), last_ + 1, nearest);
     mend_first(column(0));
     mend_last(column(last_));
   }

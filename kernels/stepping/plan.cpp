@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kernels/model/wall_rule.hpp"
 #include "kernels/stepping/scene_forms.hpp"
 
 namespace bounce {
@@ -35,6 +36,7 @@ std::string prepare(const KernelEntry& entry, const Problem& problem, const Plan
   const WallForm walls = wall_form(problem);
   plan.law = describe(law);
   plan.walls = describe(walls);
+  if (any_resolved(problem.walls)) plan.walls += ", contact resolved";
   plan.left_out = left_out(law, walls);
   return entry.prepare(problem, request, plan);
 }

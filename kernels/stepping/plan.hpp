@@ -24,6 +24,7 @@ struct PlanRequest {
   std::string kernel = "auto";
   std::string vector = "auto";  ///< auto, avx2, avx512
   int threads = 0;              ///< 1 to 256; 0: the plan decides
+  bool free_flight = true;      ///< false: the wall test is always run, to measure what it costs
 };
 
 /// The decision, with what a reader of run.json wants to know of it.
@@ -34,8 +35,9 @@ struct Plan {
   int threads = 1;
   /// Multiplications and multiply-adds of whole vectors a step takes at least; 0: not counted.
   double multiplications = 0.0;
-  std::string law;                    ///< which form of the law was compiled in
-  std::string walls;                  ///< which form of the walls was compiled in
+  bool free_flight = false;  ///< the wall test is not run while no particle can reach a wall
+  std::string law;           ///< which form of the law was compiled in
+  std::string walls;         ///< which form of the walls was compiled in
   std::vector<std::string> left_out;  ///< what this scene does not need and this code does not have
   std::vector<std::string> reasons;   ///< why this kernel, and why not the faster ones
 };

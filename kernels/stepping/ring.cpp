@@ -16,12 +16,13 @@ namespace HWY_NAMESPACE {
 // One number of lanes a target: the widest it has.
 using D = hn::ScalableTag<double>;
 
-std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape, int threads) {
-  return with_ring_form(law_form(problem.law), shape.rings, [&]<class Law, int R>() {
-    return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
-      return std::make_unique<RingStepper<D, Law, Walls, R>>(problem, shape, threads);
-    });
-  });
+std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape,
+                                   const Plan& plan) {
+  return with_ring_form(law_form(problem.law), shape.rings,
+                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+                          return std::make_unique<RingStepper<D, Law, R>>(
+                              problem, shape, plan.threads, plan.free_flight);
+                        });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -47,6 +48,11 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
     return std::to_string(plan.threads) + " threads are too many for its " +
            std::to_string(columns) + " columns of vectors: a thread needs two";
   }
+  const auto bytes_a_column =
+      sizeof(double) * 4 * static_cast<std::size_t>(shape.rings * plan.lanes);
+  const RingWalk walk = ring_walk(static_cast<std::size_t>(columns),
+                                  static_cast<std::size_t>(plan.threads), bytes_a_column);
+  if (walk != RingWalk::tiles) leave_out_free_flight(problem, request, plan);
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   plan.reasons.push_back("the neighbour list is " + std::to_string(shape.rings) +
                          " rings with constant offsets: each bond once, no index, " +
@@ -59,8 +65,8 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
   const auto shape = find_rings(problem.bonds);
   if (!shape) return nullptr;
-  return plan.lanes == 8 ? N_AVX3::make_ring(problem, *shape, plan.threads)
-                         : N_AVX2::make_ring(problem, *shape, plan.threads);
+  return plan.lanes == 8 ? N_AVX3::make_ring(problem, *shape, plan)
+                         : N_AVX2::make_ring(problem, *shape, plan);
 }
 
 }  // namespace

@@ -103,10 +103,12 @@ HWY_INLINE void reciprocals_of(const V* r2, V* u) {
   }
 }
 
-/// D: Highway's tag with the lanes to use. Law, Walls: the form the scene needs. R: rings.
-template <class D, class Law, class Walls, int R>
+/// D: Highway's tag with the lanes to use. Law: the form the scene needs. R: rings. The form of the
+/// walls is a parameter of the sweeps: all forms move the same columns.
+template <class D, class Law, int R>
 class RingColumns {
  public:
+  using Tag = D;
   using V = hn::Vec<D>;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
@@ -116,6 +118,18 @@ class RingColumns {
   static constexpr size_t block = 4 * row;      // doubles of x, y, vx and vy
   static constexpr int bonds_a_column = 3 * R - 2;
   static constexpr size_t terms = size_t{bonds_a_column} * L;  // doubles of a column's reciprocals
+
+  /// Bond b of a column goes from ring `from` at this column to ring `to`, at this or the next one.
+  struct BondPlace {
+    int from, to;
+    bool next;
+  };
+  static constexpr BondPlace place(int b) {
+    if (b < R) return {b, b, true};
+    const int inner = (b - R) / 2;
+    if ((b - R) % 2 == 0) return {inner, inner + 1, false};
+    return inner % 2 == 1 ? BondPlace{inner, inner + 1, true} : BondPlace{inner + 1, inner, true};
+  }
 
   /// Positions of one column, or sums on one.
   struct Column {
@@ -147,17 +161,10 @@ class RingColumns {
       return hn::Load(d, values);
     };
     Constants c;
-    const auto set = [&](int bond, int bond_class) HWY_ATTR {
-      const auto at = static_cast<size_t>(bond_class);
+    for (int bond = 0; bond < bonds_a_column; ++bond) {
+      const auto at = static_cast<size_t>(bond_class(bond));
       c.attraction[bond] = each([at](const StageConstants& s) { return s.kick[at].attraction; });
       c.repulsion[bond] = each([at](const StageConstants& s) { return s.kick[at].repulsion; });
-    };
-    for (int r = 0; r < R; ++r) {
-      const auto ring = static_cast<size_t>(r);
-      set(along(r), shape_.along[ring]);
-      if (r + 1 == R) break;
-      set(same(r), shape_.same[ring]);
-      set(diagonal(r), shape_.diagonal[ring]);
     }
     c.gx = each([](const StageConstants& s) { return s.gravity.x; });
     c.gy = each([](const StageConstants& s) { return s.gravity.y; });
@@ -169,6 +176,13 @@ class RingColumns {
     const StageConstants* lanes[L];
     std::fill_n(lanes, L, &stage);
     return make_constants(lanes);
+  }
+
+  /// The class of bond b of a column.
+  [[nodiscard]] int bond_class(int b) const {
+    if (b < R) return shape_.along[static_cast<size_t>(b)];
+    const auto inner = static_cast<size_t>((b - R) / 2);
+    return (b - R) % 2 == 0 ? shape_.same[inner] : shape_.diagonal[inner];
   }
 
   /// x and y of ring r of the column at `at`.
@@ -228,7 +242,7 @@ class RingColumns {
   /// Second sweep, over the same columns. `left` comes with the left sums of the first column and
   /// goes with those of the column behind the last. `nearest` becomes the least distance from a
   /// wall, NaN apart.
-  template <Rest rest>
+  template <Rest rest, class Walls>
   HWY_INLINE void sums(const Constants& c, const Walls& walls, double* at, size_t columns,
                        const double* u, Column& left, V& nearest) const {
     for (; columns > 0; --columns, at += block, u += terms) {
@@ -239,6 +253,7 @@ class RingColumns {
   }
 
   /// Kick, drift and wall of a column whose sums from the velocity on were kept.
+  template <class Walls>
   HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, double* at,
                               const Column& left, V& nearest) const {
     const Column kept = load(at + positions);
@@ -249,11 +264,12 @@ class RingColumns {
   static HWY_INLINE V far_away() { return hn::Set(d, hwy::HighestValue<double>()); }
 
   /// After the sweeps: mirrors what stands behind a wall.
-  static HWY_INLINE void mirror_at_walls(const Walls& walls, double* at, size_t columns,
-                                         V nearest) {
+  template <class Walls>
+  static HWY_INLINE void mirror_at_walls(const Constants& c, const Walls& walls, double* at,
+                                         size_t columns, V nearest) {
     if constexpr (Walls::any) {
       if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
-        mirror_columns(walls, at, columns);
+        mirror_columns(c, walls, at, columns);
       }
     }
   }
@@ -263,18 +279,6 @@ class RingColumns {
   static constexpr int along(int ring) { return ring; }
   static constexpr int same(int inner) { return R + 2 * inner; }
   static constexpr int diagonal(int inner) { return R + 2 * inner + 1; }
-
-  // Bond b of a column goes from ring `from` at this column to ring `to`, at this or the next one.
-  struct BondPlace {
-    int from, to;
-    bool next;
-  };
-  static constexpr BondPlace place(int b) {
-    if (b < R) return {b, b, true};
-    const int inner = (b - R) / 2;
-    if ((b - R) % 2 == 0) return {inner, inner + 1, false};
-    return inner % 2 == 1 ? BondPlace{inner, inner + 1, true} : BondPlace{inner + 1, inner, true};
-  }
 
   // Bonds first, first + 1, ... of a column share a division, most_in_group of them.
   template <int first>
@@ -321,7 +325,7 @@ class RingColumns {
     bond<along(r)>(c, at, u, rest, on_next);
   }
 
-  template <Rest rest>
+  template <Rest rest, class Walls>
   HWY_INLINE void end_ring(const Constants& c, const Walls& walls, double* at, int r,
                            const Column& sums, const Column& left, V& nearest) const {
     if constexpr (rest == Rest::finish) {
@@ -335,7 +339,7 @@ class RingColumns {
   // The bonds from ring to ring outwards: a ring is finished when its last bond is summed, so few
   // sums are alive at a time. Along, same, diagonal of each pair of rings: the order of the numbers
   // for each particle.
-  template <int ring, Rest rest>
+  template <int ring, Rest rest, class Walls>
   HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, double* at, const double* u,
                             Column& sums, const Column& left, Column& on_next, V& nearest) const {
     if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
@@ -350,6 +354,7 @@ class RingColumns {
     }
   }
 
+  template <class Walls>
   HWY_INLINE void finish(const Constants& c, const Walls& walls, double* at, int ring,
                          const Column& sums, const Column& left, V& nearest) const {
     const auto r = static_cast<size_t>(ring);
@@ -364,12 +369,14 @@ class RingColumns {
     if constexpr (Walls::any) nearest = hn::Min(walls.distance(d, x, y), nearest);
   }
 
-  static HWY_NOINLINE void mirror_columns(const Walls& walls, double* at, size_t columns) {
+  template <class Walls>
+  static HWY_NOINLINE void mirror_columns(const Constants& c, const Walls& walls, double* at,
+                                          size_t columns) {
     for (; columns > 0; --columns, at += block) {
       for (int r = 0; r < R; ++r) {
         if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
         double* x = at + static_cast<size_t>(r) * L;
-        walls.mirror(d, x, x + row, x + 2 * row, x + 3 * row);
+        walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
       }
     }
   }

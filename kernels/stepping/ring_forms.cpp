@@ -63,6 +63,14 @@ int team_size(int asked, std::int64_t columns) {
   return static_cast<int>(std::clamp<std::int64_t>(fit, 1, most));
 }
 
+RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
+  constexpr std::size_t cached_bytes =
+      std::size_t{256} * 1024;                // a second cache has 512 kB or more
+  constexpr std::size_t columns_alone = 128;  // with so many a tile steps several stages alone
+  if (threads > 1) return columns / threads < columns_alone ? RingWalk::team : RingWalk::tiles;
+  return columns * bytes_a_column <= cached_bytes ? RingWalk::loop : RingWalk::tiles;
+}
+
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns) {
   // To share a division among 1, 2, 3, 4 bonds (reciprocals_of).
   constexpr std::array<int, 5> to_share{0, 0, 3, 6, 9};

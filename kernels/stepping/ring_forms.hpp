@@ -1,6 +1,8 @@
 // What the ring kernels are compiled for, and what they say of it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "kernels/stepping/plan.hpp"
@@ -28,6 +30,14 @@ int ring_lanes(std::int64_t per_ring, VectorTarget target);
 /// vectors each that a hand-shake is short beside them, and no more than two for a ball that one
 /// core's cache holds.
 int team_size(int asked, std::int64_t columns);
+
+/// How the columns of a ring are gone through:
+///   loop   by one thread; the ball stays in the second cache
+///   team   by more threads, a hand-shake a stage
+///   tiles  a ball larger than the cache, or large enough that its threads may step several stages
+///          alone
+enum class RingWalk { loop, team, tiles };
+RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column);
 
 /// Multiplications and multiply-adds of whole vectors that `columns` columns take: what the ports
 /// must do at least.

@@ -21,6 +21,8 @@
 
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_forms-inl.hpp"
+#include "kernels/stepping/ring_survey-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -57,14 +59,30 @@ class RingLoop {
   void mend_last(double*) const {}
 
   template <class Walls>
-  HWY_INLINE void run(const Columns& physics, const std::vector<Constants>& constants,
-                      const Walls& walls, std::int64_t steps) {
+  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
+                         const Walls& walls, std::int64_t steps) {
     for (std::int64_t s = 0; s < steps; ++s) {
       for (const Constants& c : constants) pass(physics, c, walls);
     }
   }
 
+  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
+           std::int64_t steps) {
+    in_turns.advance(
+        steps, [&](const auto& walls, FlightSurvey& to) { survey(physics, walls, to); },
+        [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
+  }
+
+  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls,
+                           FlightSurvey& to) {
+    fill_ghost();
+    survey_bonds(physics, column(0), size_, to);
+    survey_particles<Columns>(walls, column(0), size_, to);
+  }
+
  private:
+  HWY_INLINE void fill_ghost() { Columns::store(turn(Columns::load(column(0)), 1), column(size_)); }
+
   // One stage.
   template <class Walls>
   HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls) {
@@ -73,7 +91,7 @@ class RingLoop {
     double* u_first = u + chunk * Columns::terms;
     V nearest = Columns::far_away();
     Column left;
-    Columns::store(turn(Columns::load(first), 1), column(size_));
+    fill_ghost();
     for (size_t k = 1; k < size_; k += chunk) {
       const size_t count = std::min(chunk, size_ - k);
       Columns::reciprocals(column(k), count, u);
@@ -84,7 +102,7 @@ class RingLoop {
       physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
     }
     physics.finish_kept(c, walls, first, turn(left, -1), nearest);
-    Columns::mirror_at_walls(walls, first, size_, nearest);
+    Columns::mirror_at_walls(c, walls, first, size_, nearest);
   }
 
   static HWY_INLINE Column turn(const Column& column, int shift) {

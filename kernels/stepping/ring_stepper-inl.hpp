@@ -1,11 +1,8 @@
 // ring: concentric rings with constant offsets, by sweeps over their columns (ring_columns-inl.hpp
 // says how a column is computed and why).
 //
-// Which walk a ball needs:
-//   loop   one thread, and the ball stays in the second cache
-//   team   more threads, a hand-shake a stage
-//   tiles  a ball larger than the cache, or large enough that its threads may step several stages
-//          alone
+// ring_walk says which walk a ball needs. Loop and team leave out the wall test in free flight
+// (free_flight.hpp); tiles always run it.
 #if defined(BOUNCE_RING_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_STEPPER_INL_HPP
 #undef BOUNCE_RING_STEPPER_INL_HPP
@@ -22,6 +19,7 @@
 #include <vector>
 
 #include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/ring_loop-inl.hpp"
 #include "kernels/stepping/ring_team-inl.hpp"
 #include "kernels/stepping/ring_tiles-inl.hpp"
@@ -31,10 +29,10 @@ namespace bounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// D: Highway's tag with the lanes to use. Law, Walls: the form the scene needs. R: rings.
-template <class D, class Law, class Walls, int R>
+/// D: Highway's tag with the lanes to use. Law: the form the scene needs. R: rings.
+template <class D, class Law, int R>
 class RingStepper final : public StagedStepper {
-  using Columns = RingColumns<D, Law, Walls, R>;
+  using Columns = RingColumns<D, Law, R>;
   using Constants = typename Columns::Constants;
   using Loop = RingLoop<Columns, true, 32>;
   using Team = RingTeam<Columns, Loop>;
@@ -44,12 +42,13 @@ class RingStepper final : public StagedStepper {
  public:
   /// `stages`: at most so many are taken while a tile is in cache. Fewer than most_ghosts are for
   /// measuring what that saves: 1 is a plain sweep through memory a stage.
-  RingStepper(const Problem& start, const RingShape& shape, int threads,
+  RingStepper(const Problem& start, const RingShape& shape, int threads, bool free_flight,
               size_t stages = most_ghosts)
       : StagedStepper(start),
         physics_(shape, start.law),
+        in_turns_(start, free_flight),
         columns_(static_cast<size_t>(shape.per_ring) / L),
-        walk_(std::make_unique<Walk>(choose_walk(columns_, static_cast<size_t>(threads), stages))) {
+        walk_(std::make_unique<Walk>(make_walk(columns_, static_cast<size_t>(threads), stages))) {
     RingStepper::write(start.initial);
   }
 
@@ -59,8 +58,7 @@ class RingStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    const Walls walls(model().walls);
-    std::visit([&](auto& walk) { walk.run(physics_, constants, walls, steps); }, *walk_);
+    std::visit([&](auto& walk) { walk.run(physics_, constants, in_turns_, steps); }, *walk_);
   }
 
   void read(State& state) const override {
@@ -68,24 +66,22 @@ class RingStepper final : public StagedStepper {
   }
 
   void write(const State& state) override {
+    in_turns_.forget();
     for_each_place(state, [](const double& value, double& place) { place = value; });
   }
 
  private:
   using Walk = std::variant<Loop, Team, Tiles>;
 
-  // Of a ball of this size the second cache, 512 kB at least, holds all.
-  static constexpr size_t cached_bytes = size_t{256} * 1024;
-  // From so many columns on a tile steps several stages alone.
-  static constexpr size_t columns_alone = 128;
-
-  static Walk choose_walk(size_t columns, size_t threads, size_t stages) {
+  static Walk make_walk(size_t columns, size_t threads, size_t stages) {
     if (stages < most_ghosts) return Walk(std::in_place_type<Tiles>, columns, threads, stages);
-    if (columns / threads < columns_alone) {
-      if (threads > 1) return Walk(std::in_place_type<Team>, Loop(columns), threads);
-    }
-    if (threads == 1 && columns * Columns::block * sizeof(double) <= cached_bytes) {
-      return Walk(std::in_place_type<Loop>, columns);
+    switch (ring_walk(columns, threads, Columns::block * sizeof(double))) {
+      case RingWalk::loop:
+        return Walk(std::in_place_type<Loop>, columns);
+      case RingWalk::team:
+        return Walk(std::in_place_type<Team>, Loop(columns), threads);
+      case RingWalk::tiles:
+        break;
     }
     return Walk(std::in_place_type<Tiles>, columns, threads);
   }
@@ -105,6 +101,7 @@ class RingStepper final : public StagedStepper {
   }
 
   Columns physics_;
+  WallsInTurns in_turns_;
   size_t columns_;  // vectors a ring
   std::unique_ptr<Walk> walk_;
 };

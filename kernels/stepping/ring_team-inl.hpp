@@ -22,7 +22,10 @@
 //     thread's time, with one core for two threads fifty times as much. So the work is done in
 //     slices of a millisecond, by the team or by one thread (ring_loop-inl.hpp) as was faster of
 //     late; the bits are the same.
-//  5. Columns are swept in chunks whose reciprocals stay in L1 beside them.
+//  5. A slice is cut where free flight (free_flight.hpp) begins or ends; the time taken is the
+//  whole
+//     slice's.
+//  6. Columns are swept in chunks whose reciprocals stay in L1 beside them.
 //
 // Work beside the whole ball's: one column's bonds a tile, and two short sweeps.
 //
@@ -49,6 +52,7 @@
 #include "kernels/stepping/faster_of_two.hpp"
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_forms-inl.hpp"
 #include "kernels/stepping/spin.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,19 +85,22 @@ class RingTeam {
   /// Holds the columns between two calls of run().
   [[nodiscard]] Walk& walk() { return walk_; }
 
-  template <class Walls>
-  void run(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
+  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
            std::int64_t steps) {
     using Clock = std::chrono::steady_clock;
     while (steps > 0) {
       const std::int64_t slice = std::min(steps, slice_);
       const int way = choice_.next();
       const auto start = Clock::now();
-      if (way == alone) {
-        walk_.run(physics, constants, walls, slice);
-      } else {
-        run_together(physics, constants, walls, slice);
-      }
+      in_turns.advance(
+          slice, [&](const auto& walls, FlightSurvey& to) { walk_.survey(physics, walls, to); },
+          [&](const auto& walls, std::int64_t n) {
+            if (way == alone) {
+              walk_.step(physics, constants, walls, n);
+            } else {
+              run_together(physics, constants, walls, n);
+            }
+          });
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       steps -= slice;
       if (4 * slice < slice_) continue;  // too short to tell
@@ -223,7 +230,7 @@ class RingTeam {
     physics.template sums<Rest::finish>(c, walls, tile.column(last), 1, u, left, nearest);
     physics.template sums<Rest::drop>(c, walls, tile.before(), 1, u_before, left_of_first, nearest);
     physics.finish_kept(c, walls, tile.column(0), left_of_first, nearest);
-    Columns::mirror_at_walls(walls, tile.column(0), tile.size(), nearest);
+    Columns::mirror_at_walls(c, walls, tile.column(0), tile.size(), nearest);
   }
 
   Walk walk_;

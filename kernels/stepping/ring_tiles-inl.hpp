@@ -36,6 +36,7 @@
 
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
+#include "kernels/stepping/ring_forms-inl.hpp"
 #include "kernels/stepping/spin.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -113,7 +114,7 @@ class RingTile {
     V nearest = Columns::far_away();
     Columns::reciprocals(column(begin), count, u_.data());
     physics.template sums<Rest::finish>(c, walls, column(begin), count, u_.data(), left, nearest);
-    Columns::mirror_at_walls(walls, column(begin), count, nearest);
+    Columns::mirror_at_walls(c, walls, column(begin), count, nearest);
   }
 
   size_t size_, ghosts_;
@@ -142,9 +143,15 @@ class RingTiles {
     return tiles_[t].column(static_cast<std::ptrdiff_t>(k - begins_[t]));
   }
 
-  template <class Walls>
-  void run(const Columns& physics, const std::vector<Constants>& constants, const Walls& walls,
+  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
            std::int64_t steps) {
+    in_turns.advance_walled(
+        steps, [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
+  }
+
+  template <class Walls>
+  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
+                         const Walls& walls, std::int64_t steps) {
     const size_t tiles = tiles_.size(), ghosts = tiles_.front().ghosts();
     std::vector<Mailbox> boxes(tiles);
     for (size_t t = 0; t < tiles; ++t) {

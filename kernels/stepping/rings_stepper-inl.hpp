@@ -187,7 +187,7 @@ class RingsStepper final : public StagedStepper {
       walk_column<true>(c, walls, here, next, tile.left.data(), nearest);
       if constexpr (Walls::any) {
         if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
-          mirror_column(walls, here);
+          mirror_column(c, walls, here);
         }
       }
     }
@@ -310,11 +310,12 @@ class RingsStepper final : public StagedStepper {
     hn::Store(now.on_y, d, from_left + L);
   }
 
-  HWY_NOINLINE void mirror_column(const Walls& walls, double* here) const {
+  HWY_NOINLINE void mirror_column(const Constants& c, const Walls& walls, double* here) const {
+    const V drift = hn::Set(d, c.drift);
     for (size_t r = 0; r < rings_; ++r) {
       double* x = here + r * step;
       if (hn::AllTrue(d, walls.clear(d, hn::Load(d, x), hn::Load(d, x + L)))) continue;
-      walls.mirror(d, x, x + L, x + 2 * L, x + 3 * L);
+      walls.mirror(d, drift, x, x + L, x + 2 * L, x + 3 * L);
     }
   }
 

@@ -29,10 +29,10 @@ std::string describe(LawForm form) {
   return "any p and q through pow";
 }
 
-WallForm wall_form(const Problem& problem) {
-  if (problem.walls.empty()) return WallForm::none;
-  const Vec2 normal = problem.walls.front().normal;
-  const bool floor = problem.walls.size() == 1 && normal.x == 0.0 && normal.y == 1.0;
+WallForm wall_form(const Model& model) {
+  if (model.walls.empty()) return WallForm::none;
+  const Vec2 normal = model.walls.front().normal;
+  const bool floor = model.walls.size() == 1 && normal.x == 0.0 && normal.y == 1.0;
   return floor ? WallForm::floor : WallForm::any;
 }
 
@@ -46,6 +46,12 @@ std::string describe(WallForm form) {
       break;
   }
   return "any number in any direction";
+}
+
+void leave_out_free_flight(const Model& model, const PlanRequest& request, Plan& plan) {
+  if (model.walls.empty() || !request.free_flight) return;
+  plan.free_flight = true;
+  plan.left_out.emplace_back("wall test while no particle can reach a wall");
 }
 
 std::vector<std::string> left_out(LawForm law, WallForm walls) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernels/model/problem.hpp"
+#include "kernels/stepping/plan.hpp"
 
 namespace bounce {
 
@@ -14,8 +15,12 @@ LawForm law_form(PairLaw law);
 std::string describe(LawForm form);
 
 enum class WallForm { none, floor, any };  ///< floor: one wall with normal (0, 1)
-WallForm wall_form(const Problem& problem);
+WallForm wall_form(const Model& model);
 std::string describe(WallForm form);
+
+/// For kernels that leave out the wall test in free flight: has the plan say so, unless there are
+/// no walls or the request wants the test always.
+void leave_out_free_flight(const Model& model, const PlanRequest& request, Plan& plan);
 
 /// What code of these forms does not contain, for people.
 std::vector<std::string> left_out(LawForm law, WallForm walls);

@@ -16,6 +16,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include "kernels/model/wall_rule.hpp"
 #include "kernels/stepping/sliced_stepper-inl.hpp"
 #include "kernels/stepping/strict.hpp"
 
@@ -77,7 +78,8 @@ class StrictPhysics {
   }
 
   /// slice() has done so, as the listing does.
-  static void mirror_at_walls(size_t, size_t, ParticleStore&, double*, double*) {}
+  static void mirror_at_walls(const CombinationTable&, size_t, size_t, ParticleStore&, double*,
+                              double*) {}
 
  private:
   using V = hn::Vec<D>;
@@ -120,7 +122,7 @@ class StrictPhysics {
 };
 
 std::unique_ptr<Stepper> make_strict(const Problem& problem, int threads) {
-  return std::make_unique<SlicedStepper<StrictPhysics>>(problem, threads);
+  return std::make_unique<SlicedStepper<StrictPhysics>>(problem, threads, false);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -136,6 +138,7 @@ std::string prepare_strict(const Problem& problem, const PlanRequest& request, P
   if (!(problem.law.p == 3.0 && problem.law.q == 5.0)) {
     return "the listing's operations are those of the law (3, 5)";
   }
+  if (any_resolved(problem.walls)) return "the listing's walls are those of contact \"listing\"";
   if (problem.method->name != "listing") return "the listing's scheme is the method \"listing\"";
   plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   plan.threads = request.threads == 0 ? 1 : request.threads;

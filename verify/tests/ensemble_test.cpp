@@ -32,6 +32,7 @@ std::vector<Scene> mixed_scenes() {
     other.walls[0].offset = -0.001 * (i % 4);
     other.walls[0].alpha = 0.1 * i;
     other.walls[0].beta = -0.1 * i;
+    if (i % 3 == 0) other.walls[0] = {.contact = Contact::resolved};
     other.ball.velocity.x = 0.2 * i;
     if (i % 5 == 4) other.walls.clear();
     all.push_back(other);
@@ -44,6 +45,7 @@ std::vector<Scene> scenes_with_wedges() {
   const double h = std::sqrt(0.5);
   for (std::size_t i = 0; i < all.size(); i += 2) {
     all[i].walls = {Wall{{h, h}, -2.051, 0.3, -0.7}, Wall{{0.0, 1.0}, 0.0, 1.0, -1.0}};
+    if (i % 4 == 0) all[i].walls[0].contact = Contact::resolved;
   }
   return all;
 }

@@ -34,6 +34,16 @@ Scene wedge_scene() {
   return scene;
 }
 
+// The same with resolved contact, sticky unless said otherwise.
+Scene resolved(Scene scene, double alpha = 0.0, double beta = 0.0) {
+  for (Wall& wall : scene.walls) {
+    wall.contact = Contact::resolved;
+    wall.alpha = alpha;
+    wall.beta = beta;
+  }
+  return scene;
+}
+
 Scene law_scene(double p, double q) {
   Scene scene = touching_scene();
   scene.law.p = p;
@@ -64,6 +74,23 @@ std::unique_ptr<Stepper> stepper_of(const Problem& problem, const PlanRequest& r
   return make_stepper(problem, make_plan(problem, request));
 }
 
+// The resolved rule from its definition: a straight path from where the particle came from, met by
+// the wall at a part of the drift, and another path from there. Resting: came from the wall.
+void meet_resolved(const Wall& w, double step, std::size_t i, const State& from, State& to) {
+  const double d = wall_distance(w, to.x[i], to.y[i]);
+  const double came = wall_distance(w, from.x[i], from.y[i]);
+  const double vn = w.normal.x * to.vx[i] + w.normal.y * to.vy[i];
+  const Vec2 t{to.vx[i] - vn * w.normal.x, to.vy[i] - vn * w.normal.y};
+  const bool resting = w.beta == 0.0 && w.alpha < 1.0 && came <= 1e-14;
+  const double alpha = resting ? 0.0 : w.alpha;
+  const double meets = came > 0.0 ? came / (came - d) : 0.0;  // part of the drift
+  const double rest = (1.0 - meets) * step;
+  to.vx[i] = alpha * t.x + w.beta * vn * w.normal.x;
+  to.vy[i] = alpha * t.y + w.beta * vn * w.normal.y;
+  to.x[i] = from.x[i] + meets * step * (t.x + vn * w.normal.x) + rest * to.vx[i];
+  to.y[i] = from.y[i] + meets * step * (t.y + vn * w.normal.y) + rest * to.vy[i];
+}
+
 // One step, written as plainly as can be.
 State scalar_step(const Problem& problem, const State& from) {
   State to = from;
@@ -88,6 +115,10 @@ State scalar_step(const Problem& problem, const State& from) {
     for (const Wall& w : problem.walls) {
       const double d = wall_distance(w, to.x[i], to.y[i]);
       if (d > 0.0) continue;
+      if (w.contact == Contact::resolved) {
+        meet_resolved(w, problem.step, i, from, to);
+        continue;
+      }
       const double vn = w.normal.x * to.vx[i] + w.normal.y * to.vy[i];
       const double tx = to.vx[i] - vn * w.normal.x;
       const double ty = to.vy[i] - vn * w.normal.y;
@@ -131,6 +162,9 @@ std::vector<Case> cases() {
   add("floor", touching_scene(), {"strict", "csr", "ring", "rings"});
   add("no_wall", no_wall, {"strict", "csr", "ring", "rings"});
   add("wedge", wedge_scene(), {"strict", "csr", "ring", "rings"});
+  add("resolved", resolved(touching_scene()), {"csr", "ring", "rings"});
+  add("resolved_half", resolved(touching_scene(), 0.5, 0.0), {"csr", "ring", "rings"});
+  add("resolved_wedge", resolved(wedge_scene(), 0.3, -0.7), {"csr", "ring", "rings"});
   add("law_7_13", law_scene(7, 13), {"csr", "ring", "rings"});
   add("law_2_4", law_scene(2, 4), {"csr", "ring", "rings"});
   add("law_1_3", law_scene(1, 3), {"csr"});
@@ -139,6 +173,7 @@ std::vector<Case> cases() {
   Scene straight = touching_scene();
   straight.ball.velocity.x = 0.0;
   add("straight", straight, {"ring", "mirror"});
+  add("straight_resolved", resolved(straight), {"ring", "mirror"});
   straight.walls = {Wall{{0.0, 1.0}, 0.0, 0.3, -0.7}, Wall{{0.0, -1.0}, -14.003, 0.3, -0.7}};
   add("squeezed", straight, {"mirror"});
   straight.walls.clear();

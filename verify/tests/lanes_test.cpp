@@ -26,7 +26,7 @@ constexpr int steps = 4000;  // the floor is touched from about step 1000 on
 template <size_t lanes>
 std::uint64_t ring_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
-  RingStepper<D, FixedLaw<4, 2>, Floor, 3> stepper(problem, *find_rings(problem.bonds), threads);
+  RingStepper<D, FixedLaw<4, 2>, 3> stepper(problem, *find_rings(problem.bonds), threads, true);
   stepper.advance(steps);
   return state_hash(stepper.state());
 }
@@ -35,8 +35,8 @@ template <size_t lanes>
 std::uint64_t mirror_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
   const RingShape shape = *find_rings(problem.bonds);
-  MirrorStepper<D, FixedLaw<4, 2>, Floor, 3> stepper(problem, shape,
-                                                     find_mirror_axis(problem, shape).sum, threads);
+  MirrorStepper<D, FixedLaw<4, 2>, 3> stepper(problem, shape, find_mirror_axis(problem, shape).sum,
+                                              threads, true);
   stepper.advance(steps);
   return state_hash(stepper.state());
 }
@@ -44,7 +44,7 @@ std::uint64_t mirror_hash(const Problem& problem, int threads) {
 template <size_t lanes>
 std::uint64_t csr_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
-  SlicedStepper<FastPhysics<D, FixedLaw<4, 2>, AnyWalls>> stepper(problem, threads);
+  SlicedStepper<FastPhysics<D, FixedLaw<4, 2>>> stepper(problem, threads, true);
   stepper.advance(steps);
   return state_hash(stepper.state());
 }

@@ -75,9 +75,11 @@ LedgerReport booked(const Problem& problem, BookingStepper& stepper, std::int64_
   return ledger.report();
 }
 
-Scene at_wall(int example, const std::string& method = "listing") {
+Scene at_wall(int example, const std::string& method = "listing",
+              Contact contact = Contact::listing) {
   Scene scene = at_the_wall(paper_scene(example));
   scene.time.method = method;
+  for (Wall& wall : scene.walls) wall.contact = contact;
   return scene;
 }
 
@@ -87,13 +89,14 @@ struct Sound {
   int example;
   std::string kernel;
   std::string method;
+  Contact contact = Contact::listing;
 };
 void PrintTo(const Sound& s, std::ostream* out) { *out << s.example << s.kernel << s.method; }
 
 class SoundKernel : public testing::TestWithParam<Sound> {};
 
 TEST_P(SoundKernel, ClosesItsBooksInItsOwnBits) {
-  const Scene scene = at_wall(GetParam().example, GetParam().method);
+  const Scene scene = at_wall(GetParam().example, GetParam().method, GetParam().contact);
   const Problem problem = make_problem(scene);
   const Plan plan = plan_of(scene, problem, GetParam().kernel);
   const auto plain = make_stepper(problem, plan, kernels_with_oracle(scene));
@@ -117,21 +120,37 @@ TEST_P(SoundKernel, ClosesItsBooksInItsOwnBits) {
   EXPECT_NEAR(cheap.change, cheap.walls + cheap.swing + cheap.drift, 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, SoundKernel,
-    testing::ValuesIn(std::vector<Sound>{
-        {2, "oracle", "listing"}, {2, "strict", "listing"}, {2, "csr", "listing"},
-        {2, "ring", "listing"},   {2, "mirror", "listing"}, {2, "mirror", "leapfrog"},
-        {5, "oracle", "listing"}, {5, "strict", "listing"}, {5, "csr", "leapfrog"},
-        {5, "ring", "listing"},   {5, "ring", "leapfrog"},  {6, "strict", "listing"},
-        {6, "csr", "listing"},    {6, "ring", "leapfrog"},  {7, "oracle", "listing"},
-        {7, "strict", "listing"}, {7, "csr", "leapfrog"},   {7, "ring", "listing"},
-        {7, "ring", "leapfrog"},
-    }),
-    [](const auto& param) {
-      const Sound& s = param.param;
-      return "Example" + std::to_string(s.example) + s.kernel + s.method;
-    });
+INSTANTIATE_TEST_SUITE_P(All, SoundKernel,
+                         testing::ValuesIn(std::vector<Sound>{
+                             {2, "oracle", "listing"},
+                             {2, "strict", "listing"},
+                             {2, "csr", "listing"},
+                             {2, "ring", "listing"},
+                             {2, "mirror", "listing"},
+                             {2, "mirror", "leapfrog"},
+                             {5, "oracle", "listing"},
+                             {5, "strict", "listing"},
+                             {5, "csr", "leapfrog"},
+                             {5, "ring", "listing"},
+                             {5, "ring", "leapfrog"},
+                             {6, "strict", "listing"},
+                             {6, "csr", "listing"},
+                             {6, "ring", "leapfrog"},
+                             {7, "oracle", "listing"},
+                             {7, "strict", "listing"},
+                             {7, "csr", "leapfrog"},
+                             {7, "ring", "listing"},
+                             {7, "ring", "leapfrog"},
+                             {2, "mirror", "leapfrog", Contact::resolved},
+                             {5, "csr", "listing", Contact::resolved},
+                             {5, "ring", "leapfrog", Contact::resolved},
+                             {7, "ring", "leapfrog", Contact::resolved},
+                         }),
+                         [](const auto& param) {
+                           const Sound& s = param.param;
+                           return "Example" + std::to_string(s.example) + s.kernel + s.method +
+                                  (s.contact == Contact::resolved ? "resolved" : "");
+                         });
 
 // In a wedge a particle may meet both walls in one step.
 TEST(Ledger, ClosesBetweenTwoWalls) {
