@@ -1,5 +1,6 @@
 #include "driver/reference_record.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -46,14 +47,14 @@ double speed_of(const Sample& sample, double particles) {
   return std::hypot(sample.momentum.x, sample.momentum.y) / particles;
 }
 
+// `size`: of what the value is a difference; the error bar is no less than a rounding of it.
 Observable observable(std::string_view name, std::string_view unit, std::optional<double> fixed,
-                      std::optional<double> adaptive) {
+                      std::optional<double> adaptive, double size = 0.0) {
   Observable result{name, unit, fixed, std::nullopt};
   if (!fixed || !adaptive) return result;
-  const double rounding = std::abs(*fixed) * std::numeric_limits<double>::epsilon();
+  const double rounding = std::max(std::abs(*fixed), size) * std::numeric_limits<double>::epsilon();
   const double apart = std::abs(*fixed - *adaptive);
-  result.error = apart > rounding ? apart : rounding;
-  if (std::isnan(apart)) result.error = apart;
+  result.error = apart <= rounding ? rounding : apart;  // a NaN stays
   return result;
 }
 
@@ -123,8 +124,8 @@ std::vector<Observable> observables_of(const ReferenceRecord& record) {
       observable("end_speed", "cm/s", speed_of(f, particles), speed_of(a, particles)),
       observable("rebound_height", "cm", fb.rebound_height, ab.rebound_height),
       observable("contact_time", "s", fb.contact_time, ab.contact_time),
-      observable("energy_lost", "erg", fb.energy_lost, ab.energy_lost),
-      observable("greatest_flattening", "1", fb.greatest_flattening, ab.greatest_flattening),
+      observable("energy_lost", "erg", fb.energy_lost, ab.energy_lost, std::abs(f.bond)),
+      observable("greatest_flattening", "1", fb.greatest_flattening, ab.greatest_flattening, 1.0),
       observable("greatest_flattening_time", "s", fb.greatest_flattening_time,
                  ab.greatest_flattening_time),
       observable("restitution", "1", fb.restitution, ab.restitution),

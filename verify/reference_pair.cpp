@@ -1,42 +1,73 @@
 #include "verify/reference_pair.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <future>
 #include <limits>
+#include <mutex>
 
 namespace bounce {
 namespace {
 
-template <class Solve>
-ReferencePath follow(std::size_t outputs, const ReferenceTick& tick, const Solve& solve) {
-  ReferencePath path;
-  path.states.reserve(outputs);
-  path.run = solve([&](double, const State& state) {
-    path.states.push_back(state);
-    if (tick) tick();
-  });
-  return path;
-}
+// What ends a solution whose companion has failed.
+struct Abandoned {};
+
+// Several solutions that end together: one that fails ends the others at their next output time,
+// and its exception is the one that comes out.
+class Together {
+ public:
+  explicit Together(const ReferenceTick& tick) : tick_(tick) {}
+
+  template <class Solve>
+  ReferencePath follow(std::size_t outputs, const Solve& solve) {
+    ReferencePath path;
+    path.states.reserve(outputs);
+    try {
+      path.run = solve([&](double, const State& state) {
+        if (failed_.load()) throw Abandoned{};
+        path.states.push_back(state);
+        if (tick_) tick_();
+      });
+    } catch (const Abandoned&) {
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!failed_.exchange(true)) failure_ = std::current_exception();
+    }
+    return path;
+  }
+  /// After all have ended.
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  const ReferenceTick& tick_;
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+};
 
 // The pair, and after the adaptive solution, on its thread, `more`.
 template <class More>
 ReferencePair solve_pair(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick,
                          const More& more) {
+  Together together(tick);
   auto fixed = std::async(std::launch::async, [&] {
-    return follow(times.size(), tick, [&](const ReferenceVisitor& visit) {
+    return together.follow(times.size(), [&](const ReferenceVisitor& visit) {
       return solve_fixed(problem, times, settings.fixed, visit);
     });
   });
   ReferencePair pair;
   pair.times.assign(times.begin(), times.end());
-  // If this throws, the future waits for the other one as it goes.
-  pair.adaptive = follow(times.size(), tick, [&](const ReferenceVisitor& visit) {
+  pair.adaptive = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
     return solve_adaptive(problem, times, settings.adaptive, visit);
   });
-  more();
+  more(together);
   pair.fixed = fixed.get();
+  together.rethrow();
   return pair;
 }
 
@@ -59,17 +90,17 @@ std::size_t ReferencePair::last_before_contact() const {
 
 ReferencePair solve_both(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick) {
-  return solve_pair(problem, times, settings, tick, [] {});
+  return solve_pair(problem, times, settings, tick, [](Together&) {});
 }
 
 DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> times,
                               const ReferenceSettings& settings, double disturbance,
                               const ReferenceTick& tick) {
   DisturbedPair both;
-  both.pair = solve_pair(problem, times, settings, tick, [&] {
+  both.pair = solve_pair(problem, times, settings, tick, [&](Together& together) {
     Problem moved = problem;
     moved.initial = disturbed_start(problem, disturbance);
-    both.disturbed = follow(times.size(), tick, [&](const ReferenceVisitor& visit) {
+    both.disturbed = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
       return solve_adaptive(moved, times, settings.adaptive, visit);
     });
   });

@@ -34,8 +34,8 @@ struct ReferenceSettings {
 /// Called from the solving threads after each output time; it may throw to stop them all.
 using ReferenceTick = std::function<void()>;
 
-/// Solves in both ways, on two threads. Throws as solve_adaptive does; what either throws comes out
-/// once both have ended.
+/// Solves in both ways, on two threads. Throws as solve_adaptive does: what one throws first ends
+/// the other at its next output time, and comes out.
 ReferencePair solve_both(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick = {});
 

@@ -27,3 +27,10 @@ foreach(name driver_accuracy_test driver_run_test driver_stability_test)
   add_dependencies(${name} bounce)
   gtest_discover_tests(${name} PROPERTIES LABELS driver TIMEOUT 120)
 endforeach()
+
+add_executable(driver_reference_test ${CMAKE_CURRENT_LIST_DIR}/driver_reference_test.cpp)
+target_compile_definitions(driver_reference_test PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")
+target_link_libraries(driver_reference_test PRIVATE bounce_options nlohmann_json::nlohmann_json
+  GTest::gtest_main)
+add_dependencies(driver_reference_test bounce)
+gtest_discover_tests(driver_reference_test PROPERTIES LABELS driver TIMEOUT 120)
