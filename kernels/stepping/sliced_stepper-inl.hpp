@@ -91,7 +91,8 @@ class SlicedStepper final : public StagedStepper {
         bonds_(slice_bonds(start.bonds, static_cast<int>(L))),
         store_(start.initial.size()),
         threads_(threads) {
-    if (free_flight) turns_.emplace(start);
+    // A plan may serve its problem with the walls taken away, too.
+    if (free_flight && !start.walls.empty()) turns_.emplace(start);
     SlicedStepper::write(start.initial);
   }
 
