@@ -19,7 +19,7 @@ void list() {
   }
   fmt::print("\nMethods (--set time.method=NAME):\n");
   for (const Method& method : methods()) {
-    fmt::print("  {:<12} {} (order {}, {} force evaluation(s) a step)\n", method.name,
+    fmt::print("  {:<13} {} (order {}, {} force evaluation(s) a step)\n", method.name,
                method.description, method.order, method.evaluations);
   }
   fmt::print("\nKernels (--kernel NAME):\n");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "driver/advice.hpp"
 #include "driver/commands.hpp"
 #include "driver/extended_xyz.hpp"
 #include "driver/files.hpp"
@@ -48,6 +49,8 @@ struct Options {
   PlanRequest request;
   std::string initial;
   std::string final_state;
+  std::optional<double> error;
+  std::string observable = "height";
   bool listing_frames = false;
   bool ledger = false;
   bool force = false;
@@ -57,6 +60,22 @@ struct Options {
     return out.empty() ? fs::path("runs") / fs::path(scene).stem() : fs::path(out);
   }
 };
+
+// Puts the cheapest setting that reaches the asked error into the scene; says which. Nothing if
+// interrupted.
+std::optional<std::string> take_advice(const Options& options, SceneFile& file) {
+  AdviceRequest request;
+  request.scene = file.scene();
+  if (!options.initial.empty()) request.initial = read_state(options.initial);
+  request.error = *options.error;
+  request.observable = options.observable;
+  load_problem(file, options.initial);  // throws what is wrong with it
+  catch_interrupts();
+  const auto advice = advise(request);
+  if (!advice) return std::nullopt;
+  for (const std::string& setting : settings_of(*advice, request.scene)) file.set(setting);
+  return describe(*advice, request);
+}
 
 // The scene with all that the command line changes in it.
 SceneFile load_scene(const Options& options) {
@@ -201,10 +220,19 @@ int report_end(const RunRecord& record, const Options& options) {
 }
 
 int run(const Options& options, const std::string& command_line) {
-  const SceneFile file = load_scene(options);
+  SceneFile file = load_scene(options);
   check_run_directory(options.directory(), options.force);
   if (!options.final_state.empty()) check_output_path(options.final_state, options.force);
   RunRecord record;
+  if (options.error) {
+    const auto advice = take_advice(options, file);
+    if (!advice) {
+      fmt::print(stderr, "bounce: interrupted; nothing was written\n");
+      return exit_interrupted;
+    }
+    record.advice = *advice;
+    if (!options.quiet) fmt::print("{}\n", record.advice);
+  }
   record.command = command_line;
   record.scene_name = options.scene;
   record.initial = options.initial;
@@ -265,6 +293,12 @@ void add_options(CLI::App& command, Options& options) {
       "--final-state");
   command.add_option("--final-state", options.final_state,
                      "Write the last state to FILE: CSV, 17 significant digits");
+  auto* error =
+      command.add_option("--error", options.error,
+                         "Asked error: method, step and contact are chosen as bounce advise does");
+  error->excludes(steps);
+  command.add_option("--observable", options.observable, "Of which it is the error [height]")
+      ->needs(error);
   command.add_flag("--listing-frames", options.listing_frames,
                    "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
   command.add_flag("--ledger", options.ledger,

@@ -114,9 +114,9 @@ void print_prediction(const Problem& problem, const StepCheck& check) {
                fastest.omega);
   }
   fmt::print("its bound: {:.8g} 1/s\n\n", std::sqrt(fastest.bound.lambda));
-  fmt::print("{:<12} {:>22} {:>15}\n", "method", "limit of omega_max dt", "stable step, s");
+  fmt::print("{:<14} {:>22} {:>15}\n", "method", "limit of omega_max dt", "stable step, s");
   for (const Method& method : methods()) {
-    fmt::print("{:<12} {:>22.6g} {:>15.6g}\n", method.name, stability_limit(method),
+    fmt::print("{:<14} {:>22.6g} {:>15.6g}\n", method.name, stability_limit(method),
                stable_step(method, fastest.omega));
   }
   fmt::print("\ntime step: {:.6g} s, {:.3g} of the stable step of {}\n", problem.step, check.part,

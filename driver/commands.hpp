@@ -20,6 +20,9 @@ void add_list_command(CLI::App& program, CommandContext& context);
 void add_show_command(CLI::App& program, CommandContext& context);
 void add_run_command(CLI::App& program, CommandContext& context);
 void add_stability_command(CLI::App& program, CommandContext& context);
+void add_reference_command(CLI::App& program, CommandContext& context);
+void add_accuracy_command(CLI::App& program, CommandContext& context);
+void add_advise_command(CLI::App& program, CommandContext& context);
 void add_extremes_command(CLI::App& program, CommandContext& context);
 void add_verify_command(CLI::App& program, CommandContext& context);
 

@@ -87,19 +87,19 @@ class Table {
     text_ += fmt::format(
         "\nFree flight at E = {:g}, disturbed more, {:g} periods: over the edge predicted\nfrom "
         "the disturbed start, and over that of the ball at rest\n"
-        "{:<12} {:>14} {:>12} {:>20} {:>12}\n",
+        "{:<14} {:>14} {:>12} {:>20} {:>12}\n",
         elasticity_, found.front()->criterion.periods, "method", "shortest bonds", "dt, s",
         "measured/predicted", "meas./rest");
     for (const EdgeRow* row : found) {
       const EdgeRow* rest = beside(*row);
-      text_ += fmt::format("{:<12} {:>14g} {:>12} {:>20} {:>12}\n", row->method, row->disturbance,
+      text_ += fmt::format("{:<14} {:>14g} {:>12} {:>20} {:>12}\n", row->method, row->disturbance,
                            measured(row->edge), over(row->edge.stable, row->edge.predicted),
                            rest == nullptr ? "-" : over(row->edge.stable, rest->edge.predicted));
     }
   }
 
   void flights() {
-    text_ += fmt::format("\nFree flight: largest stable step\n{:<12} {:>5} {:>20} {:>14} {:>22}\n",
+    text_ += fmt::format("\nFree flight: largest stable step\n{:<14} {:>5} {:>20} {:>14} {:>22}\n",
                          "method", "cases", "E", "dt sqrt(E)", "measured/predicted");
     for (const std::string& method : methods_) {
       const auto found = rows([&](const EdgeRow& row) {
@@ -117,7 +117,7 @@ class Table {
         product +=
             row->edge.stable * std::sqrt(row->elasticity) / static_cast<double>(found.size());
       }
-      text_ += fmt::format("{:<12} {:>5} {:>20} {:>14.5g} {:>22}\n", method, found.size(),
+      text_ += fmt::format("{:<14} {:>5} {:>20} {:>14.5g} {:>22}\n", method, found.size(),
                            fmt::format("{:g} ... {:g}", e_low, e_high), product,
                            fmt::format("{:.3f} ... {:.3f}", low, high));
     }
@@ -127,11 +127,11 @@ class Table {
     const auto found =
         rows([&](const EdgeRow& row) { return row.sought == Sought::elasticity && usual(row); });
     if (found.empty()) return;
-    text_ += fmt::format("\nLargest stable E at dt = {:g} s\n{:<12} {:<8} {:>12} {:>12} {:>20}\n",
+    text_ += fmt::format("\nLargest stable E at dt = {:g} s\n{:<14} {:<8} {:>12} {:>12} {:>20}\n",
                          found.front()->step, "method", "passage", "predicted", "measured",
                          "measured/predicted");
     for (const EdgeRow* row : found) {
-      text_ += fmt::format("{:<12} {:<8} {:>12.4g} {:>12} {:>20}\n", row->method,
+      text_ += fmt::format("{:<14} {:<8} {:>12.4g} {:>12} {:>20}\n", row->method,
                            name_of(row->passage), row->edge.predicted, measured(row->edge),
                            over(row->edge.stable, row->edge.predicted));
     }
@@ -145,7 +145,7 @@ class Table {
     text_ += fmt::format(
         "\nThrough a bounce: largest stable step, its part of free flight's, the stiffest bond, "
         "and the\npart of the stable step that the bounce used at its worst at this edge\n"
-        "{:<12} {:>9} {:>8} {:>8} {:>12} {:>12} {:>10} {:>11} {:>7} {:>7}\n",
+        "{:<14} {:>9} {:>8} {:>8} {:>12} {:>12} {:>10} {:>11} {:>7} {:>7}\n",
         "method", "E", "cm/s", "g", "dt, s", "pred./flight", "meas./fl.", "meas./pred.", "R/R0",
         "used");
     std::vector<std::size_t> left_out(methods_.size(), 0);
@@ -156,7 +156,7 @@ class Table {
         continue;
       }
       text_ += fmt::format(
-          "{:<12} {:>9.4g} {:>8.3g} {:>8.3g} {:>12} {:>12} {:>10} {:>11} {:>7.3f} "
+          "{:<14} {:>9.4g} {:>8.3g} {:>8.3g} {:>12} {:>12} {:>10} {:>11} {:>7.3f} "
           "{:>7.3f}{}\n",
           row->method, row->elasticity, edge.speed, row->gravity, measured(edge),
           over(edge.predicted, edge.flight), over(edge.stable, edge.flight),
@@ -164,7 +164,7 @@ class Table {
           edge.left ? "" : "  stays down");
     }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
-      text_ += fmt::format("{:<12} {} more, all within {:g} % of the edge of free flight\n",
+      text_ += fmt::format("{:<14} {} more, all within {:g} % of the edge of free flight\n",
                            methods_[m], left_out[m], 100.0 * (1.0 - unmoved));
     }
   }
@@ -190,13 +190,13 @@ class Table {
     });
     if (found.empty()) return;
     text_ += fmt::format(
-        "\nThe edge at E = {:g} by other criteria\n{:<12} {:<8} {:>8} {:>8} {:>12} {:>10}\n",
+        "\nThe edge at E = {:g} by other criteria\n{:<14} {:<8} {:>8} {:>8} {:>12} {:>10}\n",
         elasticity_, "method", "passage", "growth", "periods", "dt, s", "moves by");
     for (const EdgeRow* row : found) {
       const EdgeRow* usual = beside(*row);
       const double move = usual == nullptr ? std::numeric_limits<double>::quiet_NaN()
                                            : row->edge.stable / usual->edge.stable - 1.0;
-      text_ += fmt::format("{:<12} {:<8} {:>8g} {:>8g} {:>12} {:>8.2f} %{}\n", row->method,
+      text_ += fmt::format("{:<14} {:<8} {:>8g} {:>8g} {:>12} {:>8.2f} %{}\n", row->method,
                            name_of(row->passage), row->criterion.growth, row->criterion.periods,
                            measured(row->edge), 100.0 * move,
                            std::abs(move) < allowed_move ? "" : "  DEPENDS on the criterion");

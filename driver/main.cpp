@@ -62,6 +62,9 @@ int parse_and_run(int argc, char** argv) {
   add_show_command(program, context);
   add_run_command(program, context);
   add_stability_command(program, context);
+  add_reference_command(program, context);
+  add_accuracy_command(program, context);
+  add_advise_command(program, context);
   add_extremes_command(program, context);
   add_verify_command(program, context);
   try {

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,24 +28,28 @@ fs::path beside(const fs::path& path, const char* word) {
 
 }  // namespace
 
-void check_run_directory(const fs::path& target, bool replace) {
+void check_run_directory(const fs::path& target, bool replace, const std::string& marker) {
   const fs::path path = plain(target);
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return;
   if (!replace) {
     throw InputError(fmt::format("--out {}: exists already; --force replaces it", target.string()));
   }
-  const bool holds_a_run = fs::exists(path / "run.json", ignored);
+  const bool holds_a_run = fs::exists(path / marker, ignored);
   const bool is_empty = fs::is_directory(path, ignored) && fs::is_empty(path, ignored);
   if (fs::is_symlink(path, ignored) || !(holds_a_run || is_empty)) {
     throw InputError(fmt::format(
-        "--out {}: is not the directory of a run; --force replaces nothing else", target.string()));
+        "--out {}: is not the directory of a run (no {} there); --force replaces nothing else",
+        target.string(), marker));
   }
 }
 
-RunDirectory::RunDirectory(const fs::path& target, bool replace)
-    : target_(plain(target)), partial_(beside(target_, "partial")), replace_(replace) {
-  check_run_directory(target, replace);
+RunDirectory::RunDirectory(const fs::path& target, bool replace, std::string marker)
+    : target_(plain(target)),
+      partial_(beside(target_, "partial")),
+      replace_(replace),
+      marker_(std::move(marker)) {
+  check_run_directory(target, replace, marker_);
   std::error_code error;
   fs::create_directories(target_.parent_path(), error);
   if (!error) fs::create_directory(partial_, error);
@@ -64,7 +69,7 @@ void RunDirectory::publish() {
   keep_ = true;  // from here on the run is worth more than a tidy disk
   const fs::path old = beside(target_, "old");
   try {
-    check_run_directory(target_, replace_);  // it may have appeared meanwhile
+    check_run_directory(target_, replace_, marker_);  // it may have appeared meanwhile
     const bool had_old = fs::exists(target_);
     if (had_old) fs::rename(target_, old);
     fs::rename(partial_, target_);

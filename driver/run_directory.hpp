@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace bounce {
 
@@ -10,7 +11,8 @@ class RunDirectory {
  public:
   /// Throws InputError if `target` exists and may not be replaced, or holds no run and would be
   /// lost, or if a directory cannot be made beside it.
-  RunDirectory(const std::filesystem::path& target, bool replace);
+  /// `marker`: the file by which a directory that may be replaced is known.
+  RunDirectory(const std::filesystem::path& target, bool replace, std::string marker = "run.json");
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
@@ -23,10 +25,12 @@ class RunDirectory {
  private:
   std::filesystem::path target_, partial_;
   bool replace_;
+  std::string marker_;
   bool keep_ = false;
 };
 
 /// The checks of RunDirectory's constructor alone, to be made before a long preparation.
-void check_run_directory(const std::filesystem::path& target, bool replace);
+void check_run_directory(const std::filesystem::path& target, bool replace,
+                         const std::string& marker = "run.json");
 
 }  // namespace bounce

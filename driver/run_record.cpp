@@ -86,6 +86,7 @@ std::string run_json(const RunRecord& record) {
             {"initial", record.initial.empty() ? Json() : Json(record.initial)},
             {"command", record.command},
             {"status", name_of(result.status)}};
+  if (!record.advice.empty()) json["advice"] = record.advice;
   if (record.trouble_report) json["trouble"] = trouble_json(record);
   json["steps"] = result.step;
   json["steps_asked"] = record.steps_asked;

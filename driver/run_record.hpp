@@ -17,6 +17,7 @@ struct RunRecord {
   std::string command;     ///< the command line
   std::string scene_name;  ///< built-in name or file
   std::string initial;     ///< file of the initial state, or "" for the scene's ball
+  std::string advice;      ///< what --error was answered with, or ""
   Scene scene;
   Plan plan;
   std::size_t particles = 0, bonds = 0;

@@ -75,7 +75,7 @@ def draw(context, rows):
         from pictures import drawing
     except ImportError as missing:
         raise InputError(f"{missing}; install it with: apt-get install python3-matplotlib") from missing
-    figure, axes = drawing.plt.subplots(figsize=(7.2, 4.4), layout="constrained")
+    figure, axes = drawing.plt.subplots(figsize=(7.2, 5.2), layout="constrained")
     for threads in sorted({threads for _, threads in rows}):
         sizes = [particles for particles, of in rows if of == threads]
         word = f"{threads} thread{'s' if threads > 1 else ''}"
@@ -87,16 +87,18 @@ def draw(context, rows):
     base = rows.get((360, 1))
     if base:
         axes.axhline(TARGET * base["ns_per_particle_step"], color=drawing.GREY, zorder=0)
-        axes.annotate(f"{TARGET} × the paper's ball by one thread", (0.01, TARGET * base["ns_per_particle_step"]),
+        axes.annotate(f"{TARGET} × the paper's ball by one thread", (0.3, TARGET * base["ns_per_particle_step"]),
                       xycoords=("axes fraction", "data"), ha="left", va="bottom", fontsize=7.5, color="#5a6068")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
+        axis("{x:g}")
     axes.set_xlabel("particles")
     axes.set_ylabel("ns a particle-step")
     axes.grid(color="#e6e8eb", linewidth=0.6, which="both")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, frameon=False, fontsize=8)
     drawing.set_caption(figure, f"Three rings of 120 to 3.3 million columns ({context['cpu']})")
     return figure
 

@@ -92,6 +92,10 @@ Verdict judge(const std::vector<Wall>& walls, double drift, const Particle& befo
               const Particle& after) {
   Verdict verdict;
   const bool changed = !same_bits(before, after);
+  if (drift < 0.0) {  // it meets no wall
+    verdict.otherwise = changed;
+    return verdict;
+  }
   Particle now = before;
   double offsets = 0.0, crossing = 0.0;
   bool borderline = false;
@@ -229,16 +233,11 @@ BookingStepper::BookingStepper(Problem problem, Make make)
       make_(std::move(make)),
       with_walls_(make_(problem_)),
       without_walls_(make_(without_walls(problem_))) {
-  // As StagedStepper does: the pending kick of a first-same-as-last method is added to the first
-  // kick of the next step.
-  const Method& method = *problem_.method;
-  std::vector<Stage> fresh(method.stages.begin(), method.stages.end());
-  if (method.first_same_as_last) fresh.pop_back();
-  std::vector<Stage> merged = fresh;
-  if (method.first_same_as_last) merged.front().kick += method.stages.back().kick;
-  for (const Stage& stage : fresh) add_stage(stage, fresh_);
-  for (const Stage& stage : merged) add_stage(stage, merged_);
+  const StageSequence sequence = stage_sequence(*problem_.method);
+  for (const Stage& stage : sequence.fresh) add_stage(stage, fresh_);
+  for (const Stage& stage : sequence.joined) add_stage(stage, joined_);
   open_books();
+  book_unfinished();
 }
 
 BookingStepper::~BookingStepper() = default;
@@ -256,9 +255,21 @@ void BookingStepper::add_stage(Stage stage, std::vector<std::size_t>& sequence) 
 }
 
 void BookingStepper::open_books() {
-  books_ = {};
-  books_.walls.resize(problem_.walls.size());
-  books_.energy = energy_of(problem_, state(), books_.energy_rounding);
+  done_ = {};
+  done_.walls.resize(problem_.walls.size());
+  done_.energy = energy_of(problem_, with_walls_->save().state, done_.energy_rounding);
+}
+
+// The state as it is read out has its step finished on a copy, which may mirror, too.
+void BookingStepper::book_unfinished() {
+  books_ = done_;
+  const Snapshot now = with_walls_->save();
+  if (!now.stage_held || problem_.method->stages.back().drift == 0.0) return;
+  without_walls_->restore(now);
+  const State before = without_walls_->state(), after = with_walls_->state();
+  if (same_bits(before, after)) return;
+  book(problem_.method->stages.back().drift * problem_.step, before, after, books_);
+  books_.unfinished = true;
 }
 
 void BookingStepper::advance(std::int64_t steps) {
@@ -281,10 +292,11 @@ void BookingStepper::advance(std::int64_t steps) {
     }
     steps -= block;
   }
+  book_unfinished();
 }
 
-void BookingStepper::fault() {
-  if (books_.first_fault < 0) books_.first_fault = step();
+void BookingStepper::fault(WallBooks& books) const {
+  if (books.first_fault < 0) books.first_fault = step();
 }
 
 // After steps that mirrored nothing, nothing may stand behind a wall.
@@ -294,8 +306,8 @@ void BookingStepper::look_behind_walls() {
     const Particle p = particle_of(now, i);
     for (const Wall& wall : problem_.walls) {
       if (wall_distance(wall, p.x, p.y) >= -distance_rounding(wall, p)) continue;
-      ++books_.missed;
-      fault();
+      ++done_.missed;
+      fault(done_);
     }
   }
 }
@@ -303,7 +315,7 @@ void BookingStepper::look_behind_walls() {
 // with_walls_ has taken the step; it is taken once more to see what happened in it.
 void BookingStepper::step_by_stages(const Snapshot& start) {
   Snapshot now{start.state, false, 0};
-  for (const std::size_t at : start.kick_pending ? merged_ : fresh_) {
+  for (const std::size_t at : start.stage_held ? joined_ : fresh_) {
     StageKernels& kernels = *stages_[at];
     for (Stepper* stepper : {kernels.without.get(), kernels.with_walls.get()}) {
       stepper->restore(now);
@@ -311,21 +323,21 @@ void BookingStepper::step_by_stages(const Snapshot& start) {
     }
     const State before = kernels.without->save().state;
     now.state = kernels.with_walls->save().state;
-    now.kick_pending = false;
-    if (!same_bits(before, now.state))
-      book(kernels.stage[0].drift * problem_.step, before, now.state);
+    const double drift = kernels.stage[0].drift * problem_.step;
+    if (!same_bits(before, now.state)) book(drift, before, now.state, done_);
   }
   // The stages' bits are those of the step (a test holds that), or these are not this run's books.
   if (!same_bits(now.state, with_walls_->save().state)) {
-    ++books_.otherwise;
-    fault();
+    ++done_.otherwise;
+    fault(done_);
   }
 }
 
-void BookingStepper::book(double drift, const State& before, const State& after) {
-  const double energy = energy_of(problem_, before, books_.energy_rounding);
-  books_.integrator.add(energy - books_.energy);
-  Bookkeeper keeper(problem_, before, books_);
+void BookingStepper::book(double drift, const State& before, const State& after,
+                          WallBooks& books) const {
+  const double energy = energy_of(problem_, before, books.energy_rounding);
+  books.integrator.add(energy - books.energy);
+  Bookkeeper keeper(problem_, before, books);
   for (std::size_t i = 0; i < before.size(); ++i) {
     const Particle from = particle_of(before, i), to = particle_of(after, i);
     if (same_bits(from, to) &&
@@ -335,18 +347,18 @@ void BookingStepper::book(double drift, const State& before, const State& after)
     }
     const Verdict verdict = judge(problem_.walls, drift, from, to);
     for (const Mirroring& mirroring : verdict.mirrorings) keeper.add(i, mirroring);
-    books_.missed += verdict.missed ? 1 : 0;
-    books_.otherwise += verdict.otherwise ? 1 : 0;
-    if (verdict.missed || verdict.otherwise) fault();
+    books.missed += verdict.missed ? 1 : 0;
+    books.otherwise += verdict.otherwise ? 1 : 0;
+    if (verdict.missed || verdict.otherwise) fault(books);
   }
-  books_.energy = energy_of(problem_, after, books_.energy_rounding);
+  books.energy = energy_of(problem_, after, books.energy_rounding);
 }
 
 State BookingStepper::state() const { return with_walls_->state(); }
 
 Snapshot BookingStepper::save() const {
   Snapshot snapshot = with_walls_->save();
-  saved_.push_back({snapshot, books_});
+  saved_.push_back({snapshot, done_});
   if (saved_.size() > snapshots_kept) saved_.pop_front();
   return snapshot;
 }
@@ -357,10 +369,11 @@ void BookingStepper::restore(const Snapshot& snapshot) {
     return saved.snapshot.step == snapshot.step && same_bits(saved.snapshot.state, snapshot.state);
   });
   if (same != saved_.rend()) {
-    books_ = same->books;
+    done_ = same->books;
   } else {
     open_books();
   }
+  book_unfinished();
 }
 
 std::int64_t BookingStepper::step() const { return with_walls_->step(); }

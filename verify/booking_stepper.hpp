@@ -14,6 +14,9 @@
 //     and to see that the kernel did just that (within rounding), no more and no less.
 //  4. Particles are booked one after another in their order: a bond's energy changes against the
 //     neighbours where they stand at that moment.
+//  5. A state that is read out while a stage with a drift is held over (method.hpp) is finished on
+//     a copy, by that drift and the walls. The books are those of that state: what the copy's walls
+//     did is booked on a copy of the books.
 //
 // The cost: steps without reflection are taken twice; one with a reflection costs as much as a
 // hundred, most of it for the energy of the whole ball before and after.
@@ -50,6 +53,7 @@ class BookingStepper final : public Stepper {
   void restore(const Snapshot& snapshot) override;
   [[nodiscard]] std::int64_t step() const override;
 
+  /// Of state().
   [[nodiscard]] const WallBooks& books() const { return books_; }
 
  private:
@@ -62,17 +66,19 @@ class BookingStepper final : public Stepper {
   void open_books();
   void add_stage(Stage stage, std::vector<std::size_t>& sequence);
   void step_by_stages(const Snapshot& start);
-  void book(double drift, const State& before, const State& after);
+  void book_unfinished();
+  void book(double drift, const State& before, const State& after, WallBooks& books) const;
   void look_behind_walls();
-  void fault();
+  void fault(WallBooks& books) const;
 
   Problem problem_;
   Make make_;
   std::unique_ptr<Stepper> with_walls_, without_walls_;
   std::vector<std::unique_ptr<StageKernels>> stages_;
-  std::vector<std::size_t> fresh_, merged_;  // stages of a step, without and with a pending kick
+  std::vector<std::size_t> fresh_, joined_;  // stages of a step (method.hpp)
   std::int64_t block_ = 1;                   // steps to be taken at a time
-  WallBooks books_;
+  WallBooks done_;                           // of the kernel's own walls
+  WallBooks books_;                          // and of those of the copy that is read out
   mutable std::deque<Saved> saved_;
 };
 

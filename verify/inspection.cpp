@@ -201,6 +201,12 @@ ModifiedEnergy modified_energy(const Method& method) {
   return z;
 }
 
+double left_out(const Model& model, const Inspection& here) {
+  const double angle = here.frequency * model.step;
+  const int order = angle < 1.0 ? std::max(3, model.method->order) : 3;
+  return std::pow(angle, order) * std::abs(here.internal);
+}
+
 Inspection inspect(const Model& model, const State& state, const Sample& sample) {
   const BondSums sums = load_bonds(model, state);
   Inspection here;

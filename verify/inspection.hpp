@@ -9,7 +9,8 @@
 // whose coefficients e, f, h come from the method's own stages by the Baker-Campbell-Hausdorff
 // formula (Hairer, Lubich, Wanner, Geometric Numerical Integration, III.4 and IX.4). The energy E
 // itself comes and goes by the added terms: they are the swing of a run. What the modified energy
-// changes by without a wall is drift, rounding, or the terms left out, of relative size (w dt)^3.
+// changes by without a wall is drift, rounding, or the terms left out: of relative size (w dt)^3,
+// or (w dt)^p for a method of order p > 3, whose e, f and h are zero.
 #pragma once
 
 #include "kernels/model/problem.hpp"
@@ -51,6 +52,11 @@ struct Inspection {
   StepRounding step;
   RoundingSize angular, energy;  ///< of measuring the state itself
 };
+
+/// Energy that the terms left out of the modified energy may come to, erg: their relative size, for
+/// large steps that of the third order, times the internal energy. Their factors are below 1 up to
+/// near the edge of stability (a test holds that).
+double left_out(const Model& model, const Inspection& here);
 
 /// `sample` as measure() gave it of this state.
 Inspection inspect(const Model& model, const State& state, const Sample& sample);

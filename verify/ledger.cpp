@@ -28,6 +28,9 @@ bool LedgerReport::closes() const {
 Ledger::Ledger(const Model& model, bool full)
     : model_(model),
       full_(full),
+      held_drift_(model.method->first_same_as_last
+                      ? std::abs(model.method->stages.back().drift) * model.step
+                      : 0.0),
       free_energy_{.name = "energy without contact", .unit = "erg"},
       behind_{.name = "walls", .unit = "cm"} {}
 
@@ -88,7 +91,7 @@ void Ledger::measure_walls(const Look& now) {
   if (full_) {
     const WallBooks &a = before_->books, &b = now.books;
     interval_.reflections = b.reflections() - a.reflections();
-    interval_.contact = interval_.reflections > 0;
+    interval_.contact = interval_.reflections > 0 || a.unfinished || b.unfinished;
     interval_.impulse = {b.impulse().x - a.impulse().x, b.impulse().y - a.impulse().y};
     interval_.torque = b.torque() - a.torque();
     for (std::size_t w = 0; w < b.walls.size(); ++w) {
@@ -104,10 +107,14 @@ void Ledger::measure_walls(const Look& now) {
     const double reach =
         2.0 * std::max(before_->inspection.fastest, now.inspection.fastest) * time +
         pull * time * time;
-    const bool out_of_reach = std::min(before_->inspection.nearest, now.inspection.nearest) > reach;
+    const double nearest = std::min(before_->inspection.nearest, now.inspection.nearest);
+    const bool out_of_reach = nearest > reach;
     const bool pushed =
         !(within(rest.x, rounding_x(now).worst) && within(rest.y, rounding_y(now).worst));
-    interval_.contact = pushed && !out_of_reach;
+    // A step finished on a copy may have mirrored a particle that the run mirrors elsewhere, or not
+    // at all: the momentum need not show it.
+    const bool copied = held_drift_ > 0.0 && nearest <= reach * held_drift_ / time;
+    interval_.contact = (pushed && !out_of_reach) || copied;
     if (interval_.contact) {
       interval_.impulse = rest;
       interval_.torque = now.sample.angular_momentum - before_->sample.angular_momentum;
@@ -189,11 +196,8 @@ void Ledger::close_energy(const Look& now) {
 void Ledger::check_stretch(const Look& now) {
   const Inspection& here = now.inspection;
   stretch_.steps.add(over_steps(before_->inspection.step.energy, here.step.energy, steps_to(now)));
-  const auto left_out = [this](const Inspection& end) {
-    const double angle = end.frequency * model_.step;
-    return angle * angle * angle * std::abs(end.internal);
-  };
-  stretch_.left_out = std::max({stretch_.left_out, left_out(before_->inspection), left_out(here)});
+  stretch_.left_out =
+      std::max({stretch_.left_out, left_out(model_, before_->inspection), left_out(model_, here)});
   RoundingSize rounding = stretch_.steps;
   rounding.add(here.energy);
   const double residual = now.modified() - stretch_.start;

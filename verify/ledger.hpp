@@ -7,7 +7,9 @@
 //    angular momentum must close, and the change of the modified energy (inspection.hpp) is the
 //    integrator's;
 //  - in contact, if not: the changes of modified energy and angular momentum are booked to the
-//    walls, approximately: what the integrator did meanwhile is among them.
+//    walls, approximately: what the integrator did meanwhile is among them. So is an interval at
+//    whose ends a particle was so near to a wall that a drift held over (method.hpp) may have
+//    mirrored it on the copy that was read out.
 //
 // Full form, with the books of a BookingStepper: every reflection is booked, so all ledgers close
 // over the whole run, contact and all, and drift is what the integrator itself did.
@@ -128,6 +130,7 @@ class Ledger {
 
   Model model_;
   bool full_;
+  double held_drift_;  // of the stage held over between two steps, s
   std::optional<Look> start_, before_;
   LedgerInterval interval_;
   Balance momentum_x_, momentum_y_, angular_;

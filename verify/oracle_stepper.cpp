@@ -20,8 +20,8 @@ class OracleStepper final : public Stepper {
   [[nodiscard]] State state() const override { return oracle_.state(); }
   [[nodiscard]] Snapshot save() const override { return {oracle_.state(), false, step_}; }
   void restore(const Snapshot& snapshot) override {
-    if (snapshot.kick_pending) {
-      throw std::invalid_argument("the listing's scheme has no pending kick to restore");
+    if (snapshot.stage_held) {
+      throw std::invalid_argument("the listing's scheme holds no stage over");
     }
     oracle_.set_state(snapshot.state);
     step_ = snapshot.step;

@@ -20,6 +20,8 @@
 //     203). EdgeCase::disturbance shows it in flight; a hard impact disturbs enough by itself.
 //     Beyond such a place some steps are stable again: for these cases the lowest edge is sought,
 //     from below.
+//     The narrow unstable windows of some methods (stability_limit.hpp) are passed over: growth in
+//     them takes longer than the criterion's periods.
 //  5. A bounce starts just above the wall and lasts as long as the same bounce took at a quarter of
 //     the stable step (or less, where that is not stable), and a quarter more. The stiffest state
 //     seen on that way gives the prediction.

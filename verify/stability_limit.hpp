@@ -9,6 +9,12 @@
 // M multiply to 1: while |trace M|/2 < 1 they lie on the unit circle and nothing grows, beyond it
 // one of them is larger than 1. Every other part of the motion of a ball, at one state, is a sum of
 // such vibrations.
+//
+// Beyond the limit a method may be stable again. Where cos z, which trace M/2 follows, touches -1
+// or 1, it passes it by as little as the method's error: blanes-moan-4 and blanes-moan-6 first
+// leave at z = 3.16 and 3.14, for 0.2 % and 0.03 % of z, in which a vibration grows by e in 400 and
+// 2000 steps, and for good at 5.03 and 9.07. The limit is the first place all the same: a ball has
+// vibrations of every frequency up to its fastest, and a run has millions of steps.
 #pragma once
 
 #include <span>

@@ -32,6 +32,9 @@ struct WallBooks {
   std::int64_t missed = 0;        ///< particles behind a wall that were not mirrored
   std::int64_t otherwise = 0;     ///< particles changed otherwise than the wall rule says
   std::int64_t first_fault = -1;  ///< the step of the first of those; -1: none
+  /// Some reflections are those of a step finished on a copy (booking_stepper.hpp); the run will do
+  /// them once more, otherwise.
+  bool unfinished = false;
 
   [[nodiscard]] std::int64_t reflections() const;
   /// Energy that the ball got from all walls, erg.

@@ -21,7 +21,7 @@ Motion after_wall(const Wall& wall, double drift, const Motion& behind) {
     if (resting) alpha = 0.0;
     const double part = s / (drift * normal);
     lift = (1.0 - wall.beta) * s;
-    back = part > 0.0 ? std::min(part, 1.0) * drift * (alpha - 1.0) : 0.0;
+    back = part > 0.0 ? std::min(part, most_part_behind) * drift * (alpha - 1.0) : 0.0;
   }
   return {{x.x - lift * n.x + back * t.x, x.y - lift * n.y + back * t.y},
           {alpha * t.x + wall.beta * normal * n.x, alpha * t.y + wall.beta * normal * n.y}};

@@ -16,6 +16,11 @@
 //     which counts as resting: its tangential velocity is 0, unless alpha is 1. (Any alpha < 1
 //     makes it 0 in the limit, where a resting particle meets the wall again and again in no time.)
 //  3. Pulled off, it does not cross the wall, and is free.
+// A method of high order has stages that step back, with a negative drift. They meet no wall by
+// either rule: where they lead is not a place that the particle comes to. (If they did, one that is
+// pulled off would be stepped back onto the wall, and stopped there, each step again: it would
+// never come off. The next stages lead forth.)
+//
 // For alpha = 1, beta = -1 both rules are the same. For beta strictly between, a particle at rest
 // jumps by some dt^2 and, with alpha < 1, still creeps by some dt.
 #pragma once
@@ -32,11 +37,15 @@ struct Motion {
 };
 
 /// After the wall, if `behind` has not (n.x > offset). `drift`: length of the drift that ends
-/// there, s; negative in some methods.
+/// there, s, not negative.
 Motion after_wall(const Wall& wall, double drift, const Motion& behind);
 
 /// True if one of them has resolved contact.
 bool any_resolved(const std::vector<Wall>& walls);
+
+/// Drifts for which a particle can have been behind a wall. More than one if a stage stepped back
+/// behind it before: the way is then followed back through the start of the drift.
+inline constexpr double most_part_behind = 2.0;
 
 /// Part of its coordinates' size that a particle may begin a drift above a wall and count as
 /// resting on it: the roundings of a coordinate, of a distance and of what it moved by.

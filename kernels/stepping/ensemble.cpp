@@ -11,13 +11,6 @@
 #include "kernels/stepping/scene_forms.hpp"
 
 namespace bounce {
-namespace {
-
-void finish_kick(const Problem& problem, State& state) {
-  kick_only(problem, problem.method->stages.back().kick, state);
-}
-
-}  // namespace
 
 /// One scene between its turns in a lane.
 struct Ensemble::Member {
@@ -62,7 +55,7 @@ class Ensemble::Worker {
     Member* member = nullptr;
     std::int64_t step = 0;  // of the scene, as the batch holds it
     std::int64_t end = 0;   // the step at which it is done
-    bool kick_pending = false;
+    bool stage_held = false;
 
     // The next step at which it is to be looked at. It depends on the scene alone, so that what a
     // scene is retired for does too.
@@ -78,8 +71,7 @@ class Ensemble::Worker {
       Member& member = members[next];
       if (member.retired || member.steps <= 0) continue;
       batch_->write(l, member.now.state, member.problem.walls);
-      lanes_[l] = {&member, member.now.step, member.now.step + member.steps,
-                   member.now.kick_pending};
+      lanes_[l] = {&member, member.now.step, member.now.step + member.steps, member.now.stage_held};
       return;
     }
   }
@@ -87,11 +79,11 @@ class Ensemble::Worker {
   // Runs until the first scene is due, and looks at those that are.
   void run_to_next_look(const Member* members, const IsGood& is_good) {
     std::int64_t steps = look_every_;
-    bool fresh = false;  // a scene whose kick is not pending yet takes its first step
+    bool fresh = false;  // a scene for which no stage is held yet takes its first step
     for (const Lane& lane : lanes_) {
       if (lane.member == nullptr) continue;
       steps = std::min(steps, lane.next_look(look_every_) - lane.step);
-      fresh = fresh || (!lane.kick_pending && !lane.member->stages.merged.empty());
+      fresh = fresh || (!lane.stage_held && !lane.member->stages.joined.empty());
     }
     if (fresh) run(1);
     if (!fresh || steps > 1) run(fresh ? steps - 1 : steps);
@@ -112,9 +104,9 @@ class Ensemble::Worker {
         continue;
       }
       const StepStages& of_scene = lane.member->stages;
-      const bool keeps_kick = !of_scene.merged.empty();
-      stages.push_back(lane.kick_pending ? &of_scene.merged : &of_scene.fresh);
-      lane.kick_pending = keeps_kick;
+      const bool holds_stage = !of_scene.joined.empty();
+      stages.push_back(lane.stage_held ? &of_scene.joined : &of_scene.fresh);
+      lane.stage_held = holds_stage;
       lane.step += steps;
     }
     batch_->run(stages, steps);
@@ -130,15 +122,15 @@ class Ensemble::Worker {
     if (!member.retired) {
       std::swap(member.now.state, read_);
       member.now.step = lane.step;
-      member.now.kick_pending = lane.kick_pending;
+      member.now.stage_held = lane.stage_held;
     }
     if (member.retired || lane.step == lane.end) free_lane(l);
   }
 
-  // The state just read with its pending kick done, as a user sees it.
+  // The state just read with its step finished, as a user sees it.
   [[nodiscard]] State completed(const Member& member, const Lane& lane) const {
     State state = read_;
-    if (lane.kick_pending) finish_kick(member.problem, state);
+    if (lane.stage_held) finish_step(member.problem, state);
     return state;
   }
 
@@ -228,7 +220,7 @@ void Ensemble::advance(std::int64_t steps) {
 State Ensemble::state(std::size_t i) const {
   const Member& member = members_.at(i);
   State state = member.now.state;
-  if (member.now.kick_pending) finish_kick(member.problem, state);
+  if (member.now.stage_held) finish_step(member.problem, state);
   return state;
 }
 

@@ -48,7 +48,7 @@ class Ensemble {
   void advance(std::span<const std::int64_t> steps);
   /// All scenes take the same number of steps.
   void advance(std::int64_t steps);
-  /// Positions and velocities of scene i, all kicks done.
+  /// Positions and velocities of scene i, all stages done.
   [[nodiscard]] State state(std::size_t i) const;
   [[nodiscard]] Snapshot save(std::size_t i) const;
   /// Also takes a retired scene back to work.

@@ -1,5 +1,6 @@
-// What the vector kernels share: the walk through a method's stages, the pending kick of
-// first-same-as-last methods, and the snapshots. A kernel adds its data layout and its passes.
+// What the vector kernels share: the walk through a method's stages, the stage that
+// first-same-as-last methods hold over, and the snapshots. A kernel adds its data layout and its
+// passes.
 #pragma once
 
 #include <span>
@@ -18,11 +19,9 @@ struct StageConstants {
   double drift = 0.0;           ///< drift dt
 };
 
-/// The stages of a step.
+/// stage_sequence() with its constants.
 struct StepStages {
-  std::vector<StageConstants> fresh;  ///< of a step that no kick is pending for
-  std::vector<StageConstants>
-      merged;  ///< of one that takes over the pending kick; empty: none does
+  std::vector<StageConstants> fresh, joined;
 };
 StepStages step_stages(const Model& model);
 
@@ -48,11 +47,12 @@ class StagedStepper : public Stepper {
   Model model_;
   StepStages stages_;
   std::size_t particles_;
-  bool kick_pending_ = false;
+  bool stage_held_ = false;
   std::int64_t step_ = 0;
 };
 
-/// v += kick dt a(x), scalar, in the order of the neighbour list.
-void kick_only(const Model& model, double kick, State& state);
+/// Does the last stage of the model's method, scalar, forces in the order of the neighbour list:
+/// completes a state for which it is held over.
+void finish_step(const Model& model, State& state);
 
 }  // namespace bounce

@@ -9,9 +9,9 @@ namespace bounce {
 
 /// A state as a kernel holds it between steps: enough to go on, bit for bit, as if never stopped.
 struct Snapshot {
-  State state;                ///< velocities without the pending kick
-  bool kick_pending = false;  ///< the last stage's kick of a first-same-as-last method is still due
-  std::int64_t step = 0;      ///< steps taken
+  State state;
+  bool stage_held = false;  ///< the last stage of the last step is still due (method.hpp)
+  std::int64_t step = 0;    ///< steps taken
 };
 
 /// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.
@@ -20,7 +20,7 @@ class Stepper {
   virtual ~Stepper() = default;
   /// Takes `steps` steps. advance(a) then advance(b) gives the bits of advance(a + b).
   virtual void advance(std::int64_t steps) = 0;
-  /// Positions and velocities at the current step, all kicks done.
+  /// Positions and velocities at the current step, all its stages done.
   [[nodiscard]] virtual State state() const = 0;
   /// For going back or going on elsewhere; restore() accepts any kernel's snapshot of this problem.
   [[nodiscard]] virtual Snapshot save() const = 0;

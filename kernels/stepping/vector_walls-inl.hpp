@@ -70,7 +70,8 @@ HWY_INLINE WallAnswer<V> resolved_answer(const WallVectors<V>& wall, V distance,
   const V alpha = hn::IfThenElse(resting, zero, wall.alpha);
   const V part = hn::Div(distance, moved);
   // Not above 0, or not a number, where the drift did not lead into the wall.
-  const V behind = hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, one), zero);
+  const V behind =
+      hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, hn::Set(d, most_part_behind)), zero);
   return {hn::Mul(hn::Sub(one, wall.beta), distance), alpha,
           hn::Mul(hn::Mul(behind, drift), hn::Sub(alpha, one))};
 }
@@ -82,14 +83,16 @@ HWY_NOINLINE void reflect(D d, const WallVectors<V>& wall, V drift, double* x, d
   const V px = hn::Load(d, x), py = hn::Load(d, y);
   const V ux = hn::Load(d, vx), uy = hn::Load(d, vy);
   const V distance = distance_from(wall, px, py);
-  // Not-a-number stays where it is, whatever stands beside it in the vector.
-  const auto clear = hn::Not(hn::Le(distance, hn::Zero(d)));
+  // Not-a-number stays where it is, whatever stands beside it in the vector; a stage that steps
+  // back meets no wall.
+  const V zero = hn::Zero(d);
+  const auto clear = hn::Or(hn::Not(hn::Le(distance, zero)), hn::Lt(drift, zero));
   const V normal_speed = hn::MulAdd(wall.nx, ux, hn::Mul(wall.ny, uy));
   const V tx = hn::NegMulAdd(normal_speed, wall.nx, ux);
   const V ty = hn::NegMulAdd(normal_speed, wall.ny, uy);
   WallAnswer<V> answer = mirror_answer(wall, distance);
   V rest_x = px, rest_y = py;
-  const auto resolved = hn::Gt(wall.resolved, hn::Zero(d));
+  const auto resolved = hn::Gt(wall.resolved, zero);
   if (!hn::AllFalse(d, resolved)) {
     const V moved = hn::Mul(drift, normal_speed), size = hn::Add(hn::Abs(px), hn::Abs(py));
     const WallAnswer<V> other = resolved_answer(wall, distance, moved, drift, size);

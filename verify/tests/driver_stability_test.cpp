@@ -92,13 +92,13 @@ class DriverStabilityTest : public testing::Test {
 
 // More than one batch of flights, so that there is something to stop between.
 Words many(const std::string& out) {
-  return {"example-2", "--count",   "40",  "--flight-only", "--disturbed",
-          "0.02",      "--periods", "300", "--out",         out};
+  return {"example-2", "--count", "40", "--flight-only", "--disturbed",     "0.02", "--periods",
+          "300",       "--out",   out,  "--methods",     "listing,leapfrog"};
 }
 
 TEST_F(DriverStabilityTest, WritesItsDirectory) {
   ASSERT_EQ(run({"example-2", "--quick", "--set", "law.elasticity=1e6", "--periods", "100",
-                 "--growth", "50"}),
+                 "--growth", "50", "--methods", "listing,leapfrog"}),
             0)
       << err();
   const fs::path at = folder_ / "runs/example-2-stability";

@@ -1,5 +1,5 @@
 # Tests of driver/, included by the CMakeLists.txt beside this file.
-foreach(name driver_scene_file_test driver_schedule_test driver_trouble_test)
+foreach(name accuracy_test driver_scene_file_test driver_schedule_test driver_trouble_test)
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE bounce_driver GTest::gtest_main)
   gtest_discover_tests(${name} PROPERTIES LABELS driver)
@@ -20,7 +20,7 @@ target_link_libraries(driver_extremes_test PRIVATE bounce_driver GTest::gtest_ma
 add_dependencies(driver_extremes_test bounce)
 gtest_discover_tests(driver_extremes_test PROPERTIES LABELS driver TIMEOUT 600)
 
-foreach(name driver_run_test driver_stability_test)
+foreach(name driver_accuracy_test driver_run_test driver_stability_test)
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
   target_compile_definitions(${name} PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")
   target_link_libraries(${name} PRIVATE bounce_options GTest::gtest_main)

@@ -11,6 +11,7 @@
 #include "kernels/stepping/ensemble.hpp"
 #include "kernels/stepping/faster_of_two.hpp"
 #include "kernels/stepping/plan.hpp"
+#include "verify/tests/method_names.hpp"
 
 namespace bounce {
 namespace {
@@ -73,8 +74,9 @@ std::uint64_t ring_hash(const Problem& problem, std::int64_t count) {
   return state_hash(stepper->state());
 }
 
-void expect_rings_bits(const std::vector<Problem>& problems) {
-  for (const int threads : {1, 2, 3}) {
+void expect_rings_bits(const std::vector<Problem>& problems,
+                       const std::vector<int>& teams = {1, 2, 3}) {
+  for (const int threads : teams) {
     Ensemble ensemble(problems, with_threads(threads));
     ensemble.advance(steps);
     for (std::size_t i = 0; i < problems.size(); ++i) {
@@ -89,8 +91,10 @@ TEST(Ensemble, GivesRingsBitsToEveryScene) { expect_rings_bits(problems_of(mixed
 
 TEST(Ensemble, GivesRingsBitsWithAnyWalls) { expect_rings_bits(problems_of(scenes_with_wedges())); }
 
-TEST(Ensemble, GivesRingsBitsWithAPendingKick) {
-  expect_rings_bits(problems_of(mixed_scenes(), "leapfrog"));
+TEST(Ensemble, GivesRingsBitsWithEveryMethod) {
+  for (const std::string& method : method_names()) {
+    expect_rings_bits(problems_of(mixed_scenes(), method), {2});
+  }
 }
 
 TEST(Ensemble, GivesTheSameBitsInAnyBatch) {
@@ -124,7 +128,7 @@ TEST(Ensemble, GivesTheSameBitsForAnyVectorTarget) {
 
 // Each scene a number of steps of its own, some none, in several calls and across a restart.
 TEST(Ensemble, TakesEachScenesOwnNumberOfSteps) {
-  const std::vector<Problem> problems = problems_of(mixed_scenes(), "leapfrog");
+  const std::vector<Problem> problems = problems_of(mixed_scenes(), "pefrl");
   Ensemble ensemble(problems, with_threads(2)), second(problems, with_threads(1));
   std::vector<std::int64_t> own(problems.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = 430 * static_cast<std::int64_t>(i);

@@ -379,7 +379,7 @@ TEST_F(OracleEntry, StepsAsTheOracleAndRestores) {
   stepper->advance(10);
   const Snapshot half = stepper->save();
   EXPECT_EQ(half.step, 10);
-  EXPECT_FALSE(half.kick_pending);
+  EXPECT_FALSE(half.stage_held);
   stepper->advance(10);
   EXPECT_EQ(stepper->step(), 20);
   Oracle oracle(scene_, problem_.initial);
@@ -391,7 +391,7 @@ TEST_F(OracleEntry, StepsAsTheOracleAndRestores) {
   EXPECT_EQ(other->step(), 20);
   expect_same_state(other->state(), oracle.state());
   Snapshot pending = half;
-  pending.kick_pending = true;
+  pending.stage_held = true;
   EXPECT_THROW(other->restore(pending), std::invalid_argument);
 }
 

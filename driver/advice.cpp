@@ -1,0 +1,212 @@
+#include "driver/advice.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "driver/course_timing.hpp"
+#include "driver/input_error.hpp"
+#include "driver/interrupt.hpp"
+#include "kernels/stepping/method.hpp"
+
+namespace bounce {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double looks = 0.01;         // s between two looks at a course
+constexpr double largest_part = 0.9;   // of the stable step at the start, as an impact is stiffer
+constexpr int per_decade = 8;          // neighbours differ by a third: errors by a factor 2 or so
+constexpr double first_decades = 1.0;  // of steps
+constexpr double finer = 3.0;          // from one round to the next
+constexpr int most_rounds = 3;
+constexpr double pilot_part = 1.0 / 12.0;  // of the stable step, for the pilot's reference
+// An error is told apart from what the pilot knows if it is that much larger.
+constexpr double margin = 3.0;
+
+double error_of(const CourseErrors& errors, const std::string& observable) {
+  for (const ObservableName& each : observable_names) {
+    if (each.name == observable) return errors.observables.*each.value;
+  }
+  return errors.position;
+}
+
+void check(const AdviceRequest& request) {
+  std::vector<std::string> names{"position"};
+  bool known = request.observable == "position";
+  for (const ObservableName& each : observable_names) {
+    names.emplace_back(each.name);
+    known = known || each.name == request.observable;
+  }
+  if (!known) {
+    throw InputError(fmt::format("--observable {}: unknown; allowed is {}", request.observable,
+                                 fmt::join(names, ", ")));
+  }
+  if (!(request.error > 0.0 && std::isfinite(request.error))) {
+    throw InputError(fmt::format("--error {}: allowed is a number above 0", request.error));
+  }
+}
+
+std::string unit_of(const std::string& observable) {
+  for (const ObservableName& each : observable_names) {
+    if (each.name == observable) return std::string(each.unit);
+  }
+  return "cm";
+}
+
+// Without a wall the rule of contact says nothing, and the listing's is the default.
+Contact contact_of(const Scene& scene) {
+  return scene.walls.empty() ? Contact::listing : Contact::resolved;
+}
+
+// The two methods of the highest order, the highest first.
+std::vector<std::string> finest_methods() {
+  std::vector<const Method*> all;
+  for (const Method& method : methods()) all.push_back(&method);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Method* a, const Method* b) { return a->order > b->order; });
+  return {std::string(all[0]->name), std::string(all[1]->name)};
+}
+
+class Pilot {
+ public:
+  explicit Pilot(const AdviceRequest& request)
+      : request_(request), sampling_(sampling_of(request.scene, looks)) {
+    sampling_.exact = false;  // as the run will be
+  }
+
+  // One round at steps this much smaller. False if interrupted.
+  bool round(double smaller) { return find_reference(smaller) && run_candidates(smaller); }
+  [[nodiscard]] double known_to() const { return known_to_; }
+  [[nodiscard]] std::size_t courses() const { return courses_; }
+
+  // The cheapest of the rows so far that reaches the error.
+  [[nodiscard]] std::optional<Advice> best() const {
+    const CourseTimes times =
+        time_courses(request_.scene, request_.initial, sampling_, rows_, false);
+    std::optional<Advice> best;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double error = error_or_bar(error_of(rows_[i].errors, request_.observable), known_to_);
+      if (!(error <= request_.error) || !std::isfinite(times.rows[i])) continue;
+      if (best && best->seconds <= times.rows[i]) continue;
+      const Setting& setting = rows_[i].setting;
+      best = Advice{.setting = setting,
+                    .step = sampling_.every / static_cast<double>(setting.steps_a_sample),
+                    .error = error,
+                    .seconds = times.rows[i],
+                    .known_to = known_to_,
+                    .unit = unit_of(request_.observable),
+                    .pilot_seconds = 0.0,
+                    .courses = courses_};
+    }
+    return best;
+  }
+  [[nodiscard]] double smallest_error() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const AccuracyRow& row : rows_) {
+      smallest =
+          std::min(smallest, error_or_bar(error_of(row.errors, request_.observable), known_to_));
+    }
+    return smallest;
+  }
+
+ private:
+  [[nodiscard]] std::vector<Setting> settings(const std::string& method, double part,
+                                              double decades) const {
+    auto found = settings_of(request_.scene, request_.initial, method, contact_of(request_.scene),
+                             sampling_, part, decades, per_decade);
+    if (found.empty()) {
+      throw InputError("there is nothing to advise on: nothing vibrates in this scene");
+    }
+    return found;
+  }
+  [[nodiscard]] std::optional<std::vector<AccuracyRow>> run(const std::vector<Setting>& all,
+                                                            const CourseRecord& reference) {
+    courses_ += all.size();
+    return measure_accuracy(request_.scene, request_.initial, all, sampling_, reference,
+                            request_.threads, [](std::size_t) { return !interrupted(); });
+  }
+  [[nodiscard]] Setting fine(std::size_t which, double smaller) const {
+    return settings(finest_methods()[which], pilot_part / smaller, 0.0).front();
+  }
+  bool find_reference(double smaller) {
+    const auto row = run({fine(0, smaller)}, {});
+    if (row) reference_ = row->front().record;
+    return row.has_value();
+  }
+  bool run_candidates(double smaller) {
+    std::vector<Setting> all{fine(1, smaller)};  // the other course, to know the first one by
+    const double decades = smaller > 1.0 ? std::log10(finer) : first_decades;
+    for (const Method& method : methods()) {
+      const auto more = settings(std::string(method.name), largest_part / smaller, decades);
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    // Those of earlier rounds once more, against the better reference.
+    for (const AccuracyRow& row : rows_) {
+      if (std::find(all.begin(), all.end(), row.setting) == all.end()) all.push_back(row.setting);
+    }
+    auto rows = run(all, reference_);
+    if (!rows) return false;
+    rows_ = std::move(*rows);
+    known_to_ = error_of(rows_.front().errors, request_.observable);
+    return true;
+  }
+
+  const AdviceRequest& request_;
+  Sampling sampling_;
+  CourseRecord reference_;
+  double known_to_ = 0.0;
+  std::vector<AccuracyRow> rows_;
+  std::size_t courses_ = 0;
+};
+
+}  // namespace
+
+std::optional<Advice> advise(const AdviceRequest& request) {
+  check(request);
+  const auto start = Clock::now();
+  Pilot pilot(request);
+  double smaller = 1.0;
+  for (int round = 0; round < most_rounds; ++round, smaller *= finer) {
+    if (!pilot.round(smaller)) return std::nullopt;
+    // Not known well enough: a finer pilot may know more.
+    if (!(margin * pilot.known_to() <= request.error)) continue;
+    if (auto best = pilot.best()) {
+      best->pilot_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      return best;
+    }
+  }
+  throw InputError(fmt::format(
+      "--error {}: nothing reaches it; the smallest error of {} that something here is known to "
+      "reach is {:.2g} {}",
+      request.error, request.observable,
+      std::max(pilot.smallest_error(), margin * pilot.known_to()), unit_of(request.observable)));
+}
+
+std::string describe(const Advice& advice, const AdviceRequest& request) {
+  return fmt::format(
+      "method {}, contact {}, time step {:.6g} s\n"
+      "forecast: error of {} {:.1e} {} (asked {:g}; known to {:.0e}), run {:.2g} s on one thread "
+      "without output\n"
+      "found by {} courses in {:.1f} s",
+      advice.setting.method, advice.setting.contact == Contact::resolved ? "resolved" : "listing",
+      advice.step, request.observable, advice.error, advice.unit, request.error, advice.known_to,
+      advice.seconds, advice.courses, advice.pilot_seconds);
+}
+
+std::vector<std::string> settings_of(const Advice& advice, const Scene& scene) {
+  std::vector<std::string> settings{fmt::format("time.method={}", advice.setting.method),
+                                    fmt::format("time.step={}", advice.step)};
+  if (!scene.walls.empty()) {
+    settings.emplace_back(advice.setting.contact == Contact::resolved ? "wall.contact=resolved"
+                                                                      : "wall.contact=listing");
+  }
+  return settings;
+}
+
+}  // namespace bounce

@@ -1,0 +1,122 @@
+#include "driver/course_timing.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "kernels/stepping/plan.hpp"
+#include "verify/oracle_stepper.hpp"
+
+namespace bounce {
+namespace {
+
+double seconds_of(Stepper& stepper, const Snapshot& start, std::int64_t steps) {
+  stepper.restore(start);
+  const auto begin = std::chrono::steady_clock::now();
+  stepper.advance(steps);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+constexpr double papers_step = 1e-6;  // s
+
+// The listing's program on the scene's ball; nothing if it is not the listing's ball or law.
+std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& initial) {
+  scene.time.method = "listing";
+  scene.time.step = papers_step;
+  for (Wall& wall : scene.walls) wall.contact = Contact::listing;
+  const Problem problem = make_problem(scene, initial);
+  const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
+  try {
+    return make_stepper(problem, make_plan(problem, {"oracle", "auto", 1}, entries), entries);
+  } catch (const PlanError&) {
+    return nullptr;
+  }
+}
+
+// Two steppers for each method and contact: in flight, and where the ball is lowest.
+class Kinds {
+ public:
+  Kinds(const Scene& scene, const std::optional<State>& initial, const Sampling& sampling,
+        std::span<const AccuracyRow> rows)
+      : end_(sampling.end()) {
+    for (const AccuracyRow& row : rows) {
+      if (!row.record.finite || number_of(row.setting) < kinds_.size()) continue;
+      kinds_.push_back(row.setting);
+      const Problem problem = problem_of(scene, initial, row.setting, sampling);
+      for (const double time : {0.0, row.record.lowest_time}) {
+        steppers_.push_back(make_stepper(problem, make_plan(problem, {"auto", "auto", 1})));
+        steppers_.back()->advance(std::llround(time / problem.step));
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Stepper*> steppers() const {
+    std::vector<Stepper*> all;
+    for (const auto& stepper : steppers_) all.push_back(stepper.get());
+    return all;
+  }
+  // Of a whole course, from seconds of a step of each of the steppers.
+  [[nodiscard]] double seconds_of(const AccuracyRow& row, std::span<const double> steps) const {
+    const std::size_t k = number_of(row.setting);
+    if (k == kinds_.size()) return std::numeric_limits<double>::quiet_NaN();
+    const double share = row.record.finite ? row.record.observables.contact / end_ : 0.0;
+    return static_cast<double>(row.steps) *
+           ((1.0 - share) * steps[2 * k] + share * steps[2 * k + 1]);
+  }
+
+ private:
+  [[nodiscard]] std::size_t number_of(const Setting& setting) const {
+    const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Setting& kind) {
+      return kind.method == setting.method && kind.contact == setting.contact;
+    });
+    return static_cast<std::size_t>(same - kinds_.begin());
+  }
+  double end_;
+  std::vector<Setting> kinds_;
+  std::vector<std::unique_ptr<Stepper>> steppers_;
+};
+
+}  // namespace
+
+std::vector<double> time_steps(std::span<Stepper* const> steppers, int turns, double slice) {
+  std::vector<Snapshot> starts;
+  std::vector<std::int64_t> steps;
+  for (Stepper* const stepper : steppers) {
+    starts.push_back(stepper->save());
+    std::int64_t count = 16;
+    while (seconds_of(*stepper, starts.back(), count) < slice) count *= 2;
+    steps.push_back(count);
+  }
+  std::vector<std::vector<double>> times(steppers.size());
+  for (int turn = 0; turn < turns; ++turn) {
+    for (std::size_t i = 0; i < steppers.size(); ++i) {
+      const double seconds = seconds_of(*steppers[i], starts[i], steps[i]);
+      times[i].push_back(seconds / static_cast<double>(steps[i]));
+    }
+  }
+  std::vector<double> medians;
+  for (std::size_t i = 0; i < steppers.size(); ++i) {
+    std::sort(times[i].begin(), times[i].end());
+    medians.push_back(times[i][times[i].size() / 2]);
+    steppers[i]->restore(starts[i]);
+  }
+  return medians;
+}
+
+CourseTimes time_courses(const Scene& scene, const std::optional<State>& initial,
+                         const Sampling& sampling, std::span<const AccuracyRow> rows,
+                         bool with_oracle, int turns) {
+  const Kinds kinds(scene, initial, sampling, rows);
+  std::vector<Stepper*> steppers = kinds.steppers();
+  const std::unique_ptr<Stepper> oracle = with_oracle ? make_oracle(scene, initial) : nullptr;
+  if (oracle) steppers.push_back(oracle.get());
+  const std::vector<double> steps = time_steps(steppers, turns);
+  CourseTimes times;
+  for (const AccuracyRow& row : rows) times.rows.push_back(kinds.seconds_of(row, steps));
+  if (oracle) times.oracle = steps.back();
+  return times;
+}
+
+}  // namespace bounce

@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+"""Checks bounce advise: what it forecasts for the height of the centre, against what then comes out.
+
+For each scene and asked error: `bounce run SCENE --error X`, its height at the end against the reference in
+RESULTS/accuracy/SCENE, its run time against the forecast. Writes OUT/advice.md (for README).
+"""
+
+import argparse
+import csv
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+FORECAST = re.compile(r"method ([\w-]+), contact (\w+), time step (\S+) s\n"
+                      r"forecast: error of height (\S+) cm .*known to (\S+)\), run (\S+) s")
+
+
+def read_arguments():
+    root = Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("--bounce", type=Path, default=root / "build/release/bounce", metavar="PROGRAM")
+    add("--results", type=Path, default=root / "results", metavar="DIR", help="holds accuracy/SCENE [results]")
+    add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
+    add("--errors", default="1e-2,1e-3,1e-4", help="asked, cm [1e-2,1e-3,1e-4]")
+    add("scenes", nargs="*", metavar="SCENE", default=[f"example-{n}" for n in range(1, 8)])
+    return parser.parse_args()
+
+
+def reference_height(folder):
+    with open(folder / "accuracy.csv", newline="") as file:
+        row = next(csv.DictReader(file))
+    return float(row["height"]), float(row["error_height"])
+
+
+def row_of(arguments, scene, asked, folder):
+    height, bar = reference_height(arguments.results / "accuracy" / scene)
+    run = folder / f"{scene}-{asked}"
+    # So few looks that they take no time worth speaking of.
+    done = subprocess.run([arguments.bounce, "run", scene, "--error", asked, "--out", run, "--threads", "1",
+                           "--set", "output.monitor_every=1"], capture_output=True, text=True, check=False)
+    if done.returncode == 2 and "nothing reaches it" in done.stderr:
+        floor = re.search(r"reach is (\S+) cm", done.stderr)
+        return [scene, asked, "refused", "-", "-", f"{bar:.1e}", "-", "-", f"nothing known to reach below {floor[1]} cm"]
+    if done.returncode != 0:
+        sys.exit(f"advice.py: {scene}: {done.stderr}")
+    record = json.loads((run / "run.json").read_text())
+    method, contact, step, forecast, _, seconds = FORECAST.search(record["advice"]).groups()
+    with open(run / "monitor.csv", newline="") as file:
+        last = list(csv.DictReader(file))[-1]
+    error = abs(float(last["cy"]) - height)
+    good = error <= 3.0 * float(asked) + bar
+    took = record["wall_seconds"] / float(seconds)
+    return [scene, asked, f"{method}, {contact}, {float(step):.3g}", forecast, f"{error:.1e}", f"{bar:.1e}", seconds,
+            f"{took:.2f}", "as asked" if good else "MISSED"]
+
+
+def main():
+    arguments = read_arguments()
+    head = ["scene", "asked, cm", "advised: method, contact, Δt", "forecast", "came out", "known to", "run, s, forecast",
+            "took / forecast", ""]
+    with tempfile.TemporaryDirectory() as folder:
+        rows = [row_of(arguments, scene, asked, Path(folder))
+                for scene in arguments.scenes for asked in arguments.errors.split(",")]
+    version = subprocess.run([arguments.bounce, "--version"], capture_output=True, text=True, check=True).stdout
+    lines = "".join("| " + " | ".join(line) + " |\n" for line in [head, ["---"] * len(head), *rows])
+    (arguments.out / "advice.md").write_text(
+        f"# Advice\n\nErrors of the height of the centre at the end, cm.\n\n{lines}\n"
+        f"Made by `scripts/advice.py`, {version.splitlines()[0]}.\n", encoding="utf-8")
+    print(f"advice.py: {arguments.out}/advice.md")
+    return 1 if any(row[-1] == "MISSED" for row in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+"""Error against run time and against force evaluations, from bounce accuracy."""
+
+import csv
+import json
+import math
+from dataclasses import dataclass
+
+from pictures import drawing
+from pictures.drawing import plt
+from pictures.run import RunError
+
+COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c", "#8a9099", "#c1121f"]
+TEXTS = ("method", "contact", "kernel")
+PANELS = {
+    "position": "largest position error\njust before the impact, cm",
+    "height": "height of the centre\nat the end, cm",
+    "energy_lost": "energy lost\nat the end, erg",
+    "contact_time": "time in contact, s",
+    "flattening": "greatest flattening",
+    "energy": "energy, largest error\nat any time, erg",
+}
+
+
+@dataclass
+class Study:
+    """accuracy.csv: the reference's error bar and a dictionary a row; origin.json."""
+
+    bar: dict
+    rows: list
+    origin: dict
+
+    def lines(self):
+        """(method, contact) to its rows."""
+        found = {}
+        for row in self.rows:
+            found.setdefault((row["method"], row["contact"]), []).append(row)
+        return found
+
+    def papers(self):
+        """The paper's program: listing, its contact, 1e-6 s; None without it."""
+        return next((row for row in self.rows if row["method"] == row["contact"] == "listing"
+                     and abs(row["dt"] / 1e-6 - 1.0) < 1e-9), None)
+
+
+def read_study(folder):
+    """RunError if the folder holds no study, or one with a number that is none."""
+    path = folder / "accuracy.csv"
+    try:
+        with open(path, newline="") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            for key, text in row.items():
+                if key not in TEXTS:
+                    row[key] = float(text) if text else math.nan
+        origin = json.loads((folder / "origin.json").read_text())
+    except (OSError, TypeError, ValueError) as error:
+        raise RunError(f"{path}: cannot be read: {error}") from error
+    wanted = ("dt", "seconds", "evaluations", *(f"error_{name}" for name in PANELS))
+    if len(rows) < 2 or rows[0]["method"] != "reference" or any(key not in rows[0] for key in wanted):
+        raise RunError(f"{path}: no rows of bounce accuracy")
+    return Study(rows[0], rows[1:], origin)
+
+
+def draw_panel(axes, study, cost, name, colours):
+    key = f"error_{name}"
+    for (method, contact), rows in study.lines().items():
+        # Beyond the edge of stability, or where the error is 0, there is nothing to show.
+        rows = sorted((r for r in rows if math.isfinite(r[key]) and r[key] > 0), key=lambda r: r[cost])
+        style = {"marker": "o", "markersize": 3} if contact == "resolved" else {
+            "marker": "x", "markersize": 4, "linestyle": ":"}
+        axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0,
+                  label=f"{method}, {contact}", **style)
+    papers = study.papers()
+    if papers:
+        oracle = study.origin.get("oracle_seconds") or papers["seconds"]
+        axes.plot([oracle if cost == "seconds" else papers[cost]], [papers[key]], marker="*", markersize=11,
+                  color=drawing.MARK, linestyle="none", zorder=5, label="the paper's program, 1e-6 s")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.grid(color="#e6e8eb", linewidth=0.5)
+    if study.bar[key] > 0:
+        low, high = axes.get_ylim()
+        axes.axhspan(min(low, study.bar[key] / 10), study.bar[key], color="#e6e8eb", zorder=0)
+        axes.set_ylim(max(low, study.bar[key] / 3), high)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def draw_guides(axes, rows, key):
+    """Slopes of the orders, below the points, over evaluations."""
+    low, high = axes.get_ylim()
+    left, right = axes.get_xlim()
+    for order, label in ((1, "1"), (2, "2"), (4, "4"), (6, "6")):
+        start = (left * (right / left) ** 0.62, high / 1.5)
+        x = [start[0], start[0] * 10 ** (0.9 / order)]
+        axes.plot(x, [start[1], start[1] * 10 ** -0.9], color="#8a9099", linewidth=0.8)
+        axes.annotate(label, (x[1], start[1] * 10 ** -0.9), fontsize=6.5, color="#5a6068")
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+
+
+def figure_of(study, title):
+    """A row of panels over run time, one over evaluations."""
+    methods = list(dict.fromkeys(row["method"] for row in study.rows))
+    colours = {method: COLOURS[i % len(COLOURS)] for i, method in enumerate(methods)}
+    figure, panels = plt.subplots(len(PANELS), 2, figsize=(10.0, 2.6 * len(PANELS)), layout="constrained",
+                                  sharey="row")
+    for row, (name, label) in zip(panels, PANELS.items()):
+        for axes, cost in zip(row, ("seconds", "evaluations")):
+            draw_panel(axes, study, cost, name, colours)
+        draw_guides(row[1], study.rows, name)
+        row[0].set_ylabel(label)
+    panels[-1][0].set_xlabel("run time on one thread, s")
+    panels[-1][1].set_xlabel("force evaluations (short lines: orders 1, 2, 4, 6)")
+    panels[-1][0].legend(loc="upper left", bbox_to_anchor=(0.0, -0.25), ncols=3, frameon=False, fontsize=8)
+    drawing.set_caption(figure, title)
+    return figure

@@ -1,0 +1,124 @@
+// bounce accuracy as a user runs it. BOUNCE_PROGRAM is the program's path.
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+double number_after(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? std::nan("")
+                                 : std::strtod(text.c_str() + at + word.size(), nullptr);
+}
+
+class DriverAccuracyTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // The exit code. Words without characters that a shell would read otherwise.
+  int run(const std::string& words, const std::string& command = "accuracy") {
+    const std::string line = "cd '" + folder_.string() + "' && '" BOUNCE_PROGRAM "' " + command +
+                             " " + words + " >stdout 2>stderr";
+    const int status = std::system(line.c_str());  // NOLINT(cert-env33-c): the test's own words
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
+  [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
+
+  fs::path folder_;
+};
+
+// The last 0.002 cm of Example 1's fall, and the first tenth of a second of its contact.
+const std::string impact =
+    "example-1 --set ball.centre='[0.0,7.002]' --set ball.velocity='[0.0,-0.77]' "
+    "--set time.end=0.1 ";
+const std::string short_course = impact + "--methods listing,leapfrog --quick ";
+
+TEST_F(DriverAccuracyTest, WritesItsDirectory) {
+  ASSERT_EQ(run(short_course), 0) << err();
+  const fs::path at = folder_ / "runs/example-1-accuracy";
+  const std::string csv = contents(at / "accuracy.csv");
+  EXPECT_NE(csv.find("\nreference,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nlisting,listing,1e-06,100000,100000,mirror,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nleapfrog,resolved,"), std::string::npos) << csv;
+  EXPECT_EQ(contents(at / "table.txt") + "\nfiles: runs/example-1-accuracy\n", out());
+  EXPECT_NE(out().find("times sooner"), std::string::npos) << out();
+  EXPECT_NE(contents(at / "origin.json").find("\"oracle_seconds\": "), std::string::npos);
+  EXPECT_TRUE(fs::exists(at / "scene.toml"));
+  EXPECT_EQ(run(short_course), 2);  // it is there already
+  EXPECT_NE(err().find("exists already"), std::string::npos) << err();
+}
+
+TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
+  const auto refused = [this](const std::string& words, const std::string& text) {
+    EXPECT_EQ(run(words + " --out bad"), 2) << words;
+    EXPECT_NE(err().find(text), std::string::npos) << err();
+    EXPECT_FALSE(fs::exists(folder_ / "bad")) << words;
+  };
+  refused("example-1 --methods euler", "--methods euler: unknown; allowed is listing");
+  refused("example-1 --every 0", "--every 0: allowed is above 0");
+  refused("example-1 --every 14", "a tenth of time.end = 15");
+  refused("example-1 --decades nan", "--decades nan: allowed is above 0");
+  refused("example-1 --per-decade 0", "--per-decade 0: allowed is 1 to 100");
+  refused("example-1 --threads 1000", "allowed");
+  refused("example-9", "example-9");
+  refused("example-1 --set wall.contact=glue", "\"listing\" or \"resolved\"");
+}
+
+// What was forecast comes out: the run's last row against the reference's height.
+TEST_F(DriverAccuracyTest, AdviceIsTakenAndTrue) {
+  ASSERT_EQ(run(short_course), 0) << err();
+  const double height = number_after(out(), "  height ");
+  ASSERT_EQ(run(impact + "--error 1e-6", "advise"), 0) << err();
+  const std::string advised = out().substr(out().find("time.method="));
+  const double forecast = number_after(out(), "error of height ");
+  EXPECT_LE(forecast, 1e-6);
+  ASSERT_EQ(run(impact + "--error 1e-6 --out there", "run"), 0) << err();
+  const std::string scene = contents(folder_ / "there/scene.toml");
+  EXPECT_NE(scene.find("contact = \"resolved\""), std::string::npos) << scene;
+  const std::string monitor = contents(folder_ / "there/monitor.csv");
+  const std::string last = monitor.substr(monitor.rfind('\n', monitor.size() - 2) + 1);
+  // The column of the centre's height, by the head.
+  std::stringstream head(monitor.substr(0, monitor.find('\n'))), row(last);
+  std::string name, value;
+  double reached = std::nan("");
+  while (std::getline(head, name, ',') && std::getline(row, value, ',')) {
+    if (name == "cy") reached = std::strtod(value.c_str(), nullptr);
+  }
+  EXPECT_NEAR(reached, height, 3e-6);  // at most three times what was asked
+  EXPECT_NE(contents(folder_ / "there/run.json").find("\"advice\""), std::string::npos);
+}
+
+TEST_F(DriverAccuracyTest, AdviceRefusesWhatNothingReaches) {
+  EXPECT_EQ(run(impact + "--error 1e-30", "advise"), 2);
+  EXPECT_NE(err().find("nothing reaches it; the smallest error of height"), std::string::npos);
+  EXPECT_EQ(run(impact + "--error -1", "advise"), 2);
+  EXPECT_NE(err().find("--error -1: allowed is a number above 0"), std::string::npos) << err();
+  EXPECT_EQ(run(impact + "--error 1 --observable colour", "advise"), 2);
+  EXPECT_NE(err().find("--observable colour: unknown"), std::string::npos) << err();
+  EXPECT_EQ(run(impact + "--error 1e-30 --out there", "run"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "there"));
+}
+
+}  // namespace
