@@ -91,6 +91,7 @@ class SlicedStepper final : public StagedStepper {
         bonds_(slice_bonds(start.bonds, static_cast<int>(L))),
         store_(start.initial.size()),
         threads_(threads) {
+    // A plan may serve its problem with the walls taken away, too.
     if (free_flight && !start.walls.empty()) turns_.emplace(start);
     SlicedStepper::write(start.initial);
   }

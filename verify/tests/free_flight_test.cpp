@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/plan.hpp"
@@ -15,6 +16,13 @@ namespace bounce {
 namespace {
 
 constexpr double paper_step = 1e-6, paper_e = 16000.0;  // s; Example 2
+
+// From `first` on, below `end`.
+std::vector<double> growing(double first, double end, double factor) {
+  std::vector<double> values{first};
+  while (values.back() * factor < end) values.push_back(values.back() * factor);
+  return values;
+}
 
 // Example 2's ball.
 Scene ball_scene() {
@@ -160,7 +168,7 @@ TEST(FreeFlight, LastsLongOnThePapersBall) {
 TEST(FreeFlight, HoldsForAParticleFiredAtTheWall) {
   int flights = 0;
   for (const double e : {1e-6, 1.0, 16000.0, 1e12}) {
-    for (double gap = 1e-3; gap < 0.03; gap *= 1.29) {
+    for (const double gap : growing(1e-3, 0.03, 1.29)) {
       const Problem start = ball_above(gap, with_e(ball_scene(), e));
       for (const Method& method : methods()) {
         Problem problem = with_method(start, method);
@@ -314,7 +322,7 @@ void expect_same_bits(const Problem& problem, std::int64_t steps, int most_threa
 // Almost no bonds: a window is as long as the flight to the wall allows. Distances of all
 // mantissas, so that a bound half of what it must be gives some window that ends behind the wall.
 TEST(FreeFlightBits, OfABallShotAtTheWall) {
-  for (double steps_to_wall = 150.0; steps_to_wall < 3000.0; steps_to_wall *= 1.19) {
+  for (const double steps_to_wall : growing(150.0, 3000.0, 1.19)) {
     Scene scene = with_e(ball_scene(), 1e-6);
     scene.time.step = 1e-3;
     scene.ball.velocity.y = -100.0;
@@ -327,7 +335,7 @@ TEST(FreeFlightBits, OfABallShotAtTheWall) {
 
 TEST(FreeFlightBits, OfAParticleFiredAtTheWall) {
   for (const double e : {1e-6, 16000.0, 1e12}) {
-    for (double gap = 1e-3; gap < 7e-3; gap *= 1.19) {
+    for (const double gap : growing(1e-3, 7e-3, 1.19)) {
       const Problem start = ball_above(gap, with_e(ball_scene(), e));
       for (const Method& method : methods()) {
         Problem problem = with_method(start, method);
@@ -428,6 +436,21 @@ TEST(FreeFlightPlan, SaysThatTheTestIsLeftOut) {
   request.free_flight = true;
   scene.walls.clear();
   EXPECT_FALSE(says(make_plan(make_problem(scene), request)));
+}
+
+TEST(FreeFlightPlan, ServesTheProblemWithoutItsWallsToo) {
+  const Problem problem = make_problem(ball_scene());
+  for (const char* kernel : {"ring", "mirror", "csr"}) {
+    PlanRequest request;
+    request.kernel = kernel;
+    const Plan plan = make_plan(problem, request);
+    Problem open = problem;
+    open.walls.clear();
+    auto with = make_stepper(problem, plan), without = make_stepper(open, plan);
+    with->advance(600);
+    without->advance(600);
+    EXPECT_EQ(state_hash(with->state()), state_hash(without->state())) << kernel;
+  }
 }
 
 }  // namespace
