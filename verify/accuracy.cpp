@@ -96,12 +96,12 @@ std::optional<std::vector<AccuracyRow>> measure_accuracy(
   std::atomic<bool> go_on = true;
 #pragma omp parallel for schedule(dynamic, 1) \
     num_threads(threads == 0 ? omp_get_num_procs() : threads)
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  for (const std::size_t i : order) {
     if (!go_on) continue;
     try {
-      rows[order[k]] = run(scene, initial, settings[order[k]], sampling, reference);
+      rows[i] = run(scene, initial, settings[i], sampling, reference);
 #pragma omp critical(bounce_accuracy)
-      if (!done(order[k])) go_on = false;
+      if (!done(i)) go_on = false;
     } catch (...) {
 #pragma omp critical(bounce_accuracy)
       failure = std::current_exception();
