@@ -22,14 +22,16 @@ namespace bounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Ten side by side: two ports, four or five cycles from a sum to its next term. The result keeps
-// the compiler from leaving the work out.
+// Ten side by side: two ports, four or five cycles from a sum to its next term. Each starts from a
+// value of its own: ten equal chains the compiler would compute as one, and the rate would be ten
+// times that of a chain, whatever the ports can do. The result keeps it from leaving the work out.
 HWY_NOINLINE double multiply_add(double start) {
   const hn::ScalableTag<double> d;
   const auto factor = hn::Set(d, 0.5);
   const auto term = hn::Set(d, start);
-  auto a = term, b = term, c = term, e = term, f = term;
-  auto g = term, h = term, i = term, j = term, k = term;
+  const auto begin = [&](int chain) HWY_ATTR { return hn::Set(d, start * chain); };
+  auto a = begin(1), b = begin(2), c = begin(3), e = begin(4), f = begin(5);
+  auto g = begin(6), h = begin(7), i = begin(8), j = begin(9), k = begin(10);
   for (int round = 0; round < rounds; ++round) {
     a = hn::MulAdd(a, factor, term);
     b = hn::MulAdd(b, factor, term);

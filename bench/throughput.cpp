@@ -163,7 +163,8 @@ class EnsembleSubject final : public Subject {
                   request_of("ring", vector, threads)) {
     const std::optional<RingShape> shape = find_rings(of.problem.bonds);
     const double a_batch = ring_multiplications(of.problem, shape->rings, shape->per_ring);
-    if (threads == 1) counted_ = {a_batch / ensemble_.lanes(), make_plan(of.problem).vector};
+    const VectorTarget target = make_plan(of.problem, request_of("ring", vector, 1)).vector;
+    if (threads == 1) counted_ = {a_batch / ensemble_.lanes(), target};
   }
   void advance(std::int64_t steps) override { ensemble_.advance(steps); }
   [[nodiscard]] std::vector<State> states() const override {

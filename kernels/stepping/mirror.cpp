@@ -4,6 +4,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "kernels/stepping/mirror.hpp"
 #include "kernels/stepping/mirror_stepper-inl.hpp"
 #include "kernels/stepping/ring_forms-inl.hpp"
@@ -40,16 +43,17 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
   if (!form.refusal.empty()) return form.refusal;
   const MirrorAxis axis = find_mirror_axis(problem, form.shape);
   if (!axis.refusal.empty()) return "it is not left-right symmetric: " + axis.refusal;
-  plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   const std::int64_t half = form.shape.per_ring / 2;
+  plan.lanes = plan.vector == VectorTarget::avx512 && half >= 2 * 8 ? 8 : 4;
   if (half < std::int64_t{2} * plan.lanes) {
     return std::to_string(half) + " columns of half a ball are less than two a lane";
   }
-  const std::int64_t columns = (half + plan.lanes - 1) / plan.lanes;
+  const std::int64_t columns = half / plan.lanes + 1;
   plan.threads = team_size(request.threads, columns);
-  if (plan.threads > 1 && columns + 1 < fewest_columns * plan.threads) {
-    return std::to_string(plan.threads) + " threads are too many for " +
-           std::to_string(columns + 1) + " columns of vectors: a thread needs three";
+  if (const std::int64_t most = columns / fewest_columns; plan.threads > most) {
+    plan.threads = static_cast<int>(std::max<std::int64_t>(1, most));
+    plan.reasons.emplace_back(std::to_string(columns) + " columns of vectors are enough for " +
+                              std::to_string(plan.threads) + " threads: a thread needs three");
   }
   leave_out_free_flight(problem, request, plan);
   plan.multiplications = ring_multiplications(problem, form.shape.rings, columns);

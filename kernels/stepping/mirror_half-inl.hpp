@@ -10,17 +10,18 @@
 //         staggered:            -1 |  0     1    ...  half-1  |  half
 //                                axis                       axis
 //
-//  2. Lane l begins at column l half / L (rounded down) and computes columns 0 .. K of its own,
-//     K = half / L rounded up, with a ghost at either side. The last lane needs its column K: it is
-//     the particle on the axis below. In the other lanes it is their neighbour's column 0 (or 1, if
-//     half / L is not whole and the lane is short), computed twice, to the same bits.
+//  2. Each lane computes columns 0 .. K of its own, K = half / L rounded down, with a ghost at
+//     either side. The first lane begins at column 0, the last at half - K, so that its column K is
+//     the particle on the axis below; the others begin evenly between. A lane whose neighbour
+//     begins K + 1 columns on is long. If K columns on, it is short: its column K is the
+//     neighbour's column 0, computed twice, to the same bits.
 //  3. The ghosts of a stage come from the neighbour lane, or from the mirror image in the first and
 //     the last lane. After it particles on the axis are put back on it (x = 0, vx = 0), since the
 //     sums from left and right cancel but for rounding.
 //  4. The bonds across the axis so need no code of their own.
 //
 // Operations: K + 1 columns and the left sums of one more, where the full ball has 2 half / L: with
-// 4 lanes 17 columns instead of 30, with 8 lanes 10 instead of 15.
+// 4 lanes 17 columns instead of 30, with 8 lanes 9 instead of 15.
 //
 // Not taken: the two particles on the axis as scalars (K columns only, but their bonds, which sit
 // in lanes of other columns, would have to be taken out one by one).
@@ -64,13 +65,13 @@ class MirrorHalf {
   /// per_ring: of the whole ball; half of it at least two columns a lane.
   explicit MirrorHalf(std::int64_t per_ring)
       : half_(per_ring / 2),
-        last_((static_cast<size_t>(half_) + L - 1) / L),
+        last_(static_cast<size_t>(half_) / L),
         data_((last_ + 3) * block),
         u_(Columns::terms * (chunk + 2)),
         long_(L) {
     for (size_t l = 0; l < L; ++l) {
-      const bool is_short = begin_of(l + 1) - begin_of(l) < static_cast<std::int64_t>(last_);
-      long_[l] = is_short ? 0.0 : 1.0;
+      const bool is_long = begin_of(l + 1) - begin_of(l) > static_cast<std::int64_t>(last_);
+      long_[l] = is_long ? 1.0 : 0.0;
     }
   }
 
@@ -80,7 +81,8 @@ class MirrorHalf {
   [[nodiscard]] const double* column(size_t k) const { return data_.data() + (k + 1) * block; }
   /// Of the half, the column at which lane l begins.
   [[nodiscard]] std::int64_t begin_of(size_t l) const {
-    return static_cast<std::int64_t>(l) * half_ / static_cast<std::int64_t>(L);
+    constexpr auto after_first = std::max<std::int64_t>(1, static_cast<std::int64_t>(L) - 1);
+    return static_cast<std::int64_t>(l) * (half_ - static_cast<std::int64_t>(last_)) / after_first;
   }
 
   template <class Walls>
@@ -113,17 +115,16 @@ class MirrorHalf {
   }
 
   // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
-  // last tile as they were before the stage, outermost first. In a short lane, whose neighbour
-  // begins one column sooner, columns count one higher.
+  // last tile as they were before the stage, outermost first.
   static constexpr size_t told = 3;
   HWY_INLINE Column before_first(const double* const* first, const double* const* last) const {
     const Column previous =
-        Columns::turn(by_length(Columns::load(last[1]), Columns::load(last[2])), -1);
+        Columns::turn(by_length(Columns::load(last[0]), Columns::load(last[1])), -1);
     return with_image(previous, 0, first[1], first[0]);
   }
   HWY_INLINE Column behind_last(const double* const* first, const double* const* last) const {
-    const Column next = by_length(Columns::turn(Columns::load(first[1]), 1),
-                                  Columns::turn(Columns::load(first[2]), 1));
+    const Column next = by_length(Columns::turn(Columns::load(first[0]), 1),
+                                  Columns::turn(Columns::load(first[1]), 1));
     return with_image(next, L - 1, last[1], last[2]);
   }
 
@@ -221,7 +222,7 @@ class MirrorHalf {
   size_t last_;        // K, the last column a lane computes
   AlignedArray data_;
   AlignedArray u_;
-  AlignedArray long_;  // 1 in a lane of K columns, 0 in one of K - 1
+  AlignedArray long_;  // 1 in a long lane, 0 in a short one
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
