@@ -269,6 +269,7 @@ void add_vector_rows(const std::string& vector) {
   for (const char* kernel : {"strict", "csr", "ring"}) {
     for (const int threads : {1, 2}) add_kernel(kernel, vector, threads);
   }
+  add_kernel("ring", vector, 4);  // on two cores: it must not collapse
   for (const int threads : {1, 2}) add_kernel("mirror", vector, threads);
   for (const int threads : {1, 2}) add_kernel("mirror", vector, threads, "example-1");
   for (const int threads : {1, 2}) {
@@ -293,6 +294,7 @@ void add_rows() {
   add_oracle("oracle without fma", &exact::run_listing);
   for (const VectorTarget target : available_vectors())
     add_vector_rows(std::string(name_of(target)));
+  add_kernel("auto", "auto", 0, "example-1");  // what a user gets who asks for nothing
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Puts tables of results/ between README's markers, so that no figure there is typed by hand.
+"""Puts tables of results/ between README's markers, so that no figure there is typed by hand. First it makes
+results/targets.md, which is drawn from several of them, anew.
 
 A block stands between <!-- results/NAME.md --> and <!-- end -->, each on a line of its own; it gets that file
 without its heading. A block whose file has not been made yet stays as it is, and is named.
@@ -7,6 +8,7 @@ without its heading. A block whose file has not been made yet stays as it is, an
 import os
 import pathlib
 import re
+import subprocess
 import sys
 
 START = re.compile(r"^<!-- (results/[\w.-]+\.md) -->\n", re.M)
@@ -34,13 +36,20 @@ def filled(text, top):
     return "".join(parts), missing
 
 
+def write_whole(path, text):
+    temporary = path.with_suffix(".tmp")
+    temporary.write_text(text, encoding="utf-8")
+    os.replace(temporary, path)
+
+
 def main():
     top = pathlib.Path(__file__).resolve().parent.parent
+    targets = subprocess.run([top / "scripts" / "targets_table.py", top / "results"], check=True, text=True,
+                             stdout=subprocess.PIPE).stdout
+    write_whole(top / "results" / "targets.md", targets)
     readme = top / "README.md"
     text, missing = filled(readme.read_text(encoding="utf-8"), top)
-    temporary = readme.with_suffix(".tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, readme)
+    write_whole(readme, text)
     for name in missing:
         print(f"update_readme.py: {name} is not there; its block stays as it is")
 

@@ -170,6 +170,24 @@ class LargeBalls(unittest.TestCase):
         self.assertIn("torn.json: not a result", complaints)
 
 
+class Targets(unittest.TestCase):
+    def rows(self, figures):
+        with tempfile.TemporaryDirectory() as folder:
+            results(folder, "throughput.json", figures)
+            done = subprocess.run([SCRIPTS / "targets_table.py", folder], capture_output=True, text=True, check=True)
+        return {line.split(" | ")[0].lstrip("| "): [cell.strip(" |") for cell in line.split(" | ")[2:]]
+                for line in done.stdout.splitlines() if line.startswith("|")}
+
+    def test_met_missed_and_not_measured(self):
+        rows = self.rows({"ring avx512/threads:1": [20.0, 19.0, 21.0], "ring avx2/threads:1": [8.9] * 3,
+                          "ring avx512/threads:4": [9.0] * 3, "auto, example-1/threads:0": [math.nan] * 3})
+        self.assertEqual(rows["ring avx512, one core: × oracle -O3"], ["20.00", "met"])
+        self.assertEqual(rows["ring avx2, one core: × oracle -O3"], ["8.90", "**not met**"])
+        self.assertEqual(rows["ring avx512, four threads on two cores: × one thread"], ["0.45", "**not met**"])
+        for missing in ("Example 1 as auto runs it: × oracle -O3", "ring avx512, one core: × oracle -Ofast"):
+            self.assertEqual(rows[missing], ["not measured", ""])
+
+
 class Rule(unittest.TestCase):
     def test_ranks_of_the_head(self):
         known = {6: 0, 7: 1, 11: 2, 15: 3}  # of six throws even six heads come with 3.1 %
