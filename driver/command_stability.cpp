@@ -229,9 +229,12 @@ std::string arguments_json(const Options& options, const std::vector<SweepCase>&
 }
 
 // Work to expect of a case, in steps.
-double expected_work(const SweepCase& each) {
+double expected_work(const SweepCase& each, const EdgeCriterion& usual) {
   if (each.edge.passage == Passage::bounce) return 3e5;
-  const double runs = each.edge.disturbance == edge_disturbance ? 8.0 : 40.0;
+  // Bisected, or climbed to.
+  const bool longer = each.edge.criterion.periods > usual.periods;
+  const bool climbed = longer || each.edge.disturbance != edge_disturbance;
+  const double runs = climbed ? 40.0 : 8.0;
   return runs * 3.0 * each.edge.criterion.periods;
 }
 
@@ -255,7 +258,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
   for (const SweepCase& each : cases) {
     if (rows.contains(each.key)) continue;
     missing.push_back(each);
-    work += expected_work(each);
+    work += expected_work(each, options.criterion);
   }
   CaseProgress progress(::isatty(STDERR_FILENO) != 0, missing.size(), work);
   double done = 0.0;
@@ -279,7 +282,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
       const std::string line = edge_line(now[i].key, edge, seconds * share);
       directory.add(line);
       rows[now[i].key] = line;
-      done += expected_work(now[i]);
+      done += expected_work(now[i], options.criterion);
     }
     rest = rest.subspan(now.size());
     progress.update(missing.size() - rest.size(), done);
@@ -386,6 +389,10 @@ void add_stability_command(CLI::App& program, CommandContext& context) {
       "edge\n"
       "comes nearer (bounce run reports how near, and monitor.csv has it in the column\n"
       "stable_part).\n"
+      "The limit is where the first unstable step lies. Where that is the start of a narrow "
+      "window\n"
+      "(blanes-moan-4, blanes-moan-6) a flight of --periods may be stable beyond it: the edge\n"
+      "predicted for the criterion is then another, and the limit is measured by longer flights.\n"
       "Without --predict the edge is measured: in free flight and through a bounce over E, at one\n"
       "time step the largest E, and over speed of impact and gravity. Results: edge.csv (a row a\n"
       "case), table.txt (as printed), origin.json, scene.toml. A sweep that is stopped goes on "
