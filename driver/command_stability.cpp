@@ -55,6 +55,7 @@ struct Options {
   std::vector<std::string> methods;
   std::optional<std::vector<double>> speeds, gravities, disturbances;
   bool flight_only = false;
+  bool undisturbed = false;
   bool quick = false;
   EdgeCriterion criterion;
   int threads = 0;
@@ -188,8 +189,8 @@ SweepRequest request_of(const Options& options, const SceneFile& file) {
   using List = std::vector<double>;
   request.speeds = options.speeds.value_or(options.quick ? List{} : List{1, 3, 10, 30});
   request.gravities = options.gravities.value_or(options.quick ? List{} : List{0, 0.98, 9.8, 98});
-  request.disturbances =
-      options.disturbances.value_or(options.quick ? List{} : List{1e-3, 3e-3, 1e-2, 2e-2, 3e-2});
+  request.disturbances = options.disturbances.value_or(
+      options.quick || options.undisturbed ? List{} : List{1e-3, 3e-3, 1e-2, 2e-2, 3e-2});
   for (const double size : request.disturbances) demand("--disturbed", size, 0.0);
   for (const double speed : request.speeds) demand("--speed", speed, 0.0);
   for (const double g : request.gravities) demand("--g", g, 0.0, true);
@@ -346,10 +347,13 @@ void add_measuring_options(CLI::App& command, Options& options, CLI::Option* pre
                                "Gravities at the scene's E and speed of impact, cm/s^2 "
                                "[0,0.98,9.8,98]"))
       ->delimiter(',');
-  measuring(command.add_option("--disturbed", options.disturbances,
-                               "Disturbances of flights at the scene's E, in shortest bonds "
-                               "[0.001,0.003,0.01,0.02,0.03]"))
-      ->delimiter(',');
+  auto* sizes =
+      measuring(command.add_option("--disturbed", options.disturbances,
+                                   "Disturbances of flights at the scene's E, in shortest bonds "
+                                   "[0.001,0.003,0.01,0.02,0.03]"));
+  sizes->delimiter(',');
+  measuring(command.add_flag("--no-disturbed", options.undisturbed, "None of those"))
+      ->excludes(sizes);
   measuring(command.add_flag("--flight-only", options.flight_only, "Leave the bounces out"));
   measuring(command.add_flag("--quick", options.quick,
                              "3 values of E from 1000, no other speeds, gravities, disturbances"));

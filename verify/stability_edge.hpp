@@ -30,8 +30,10 @@
 //     next wide one. So a flight whose criterion a narrow window exceeds is sought by climbing
 //     through that window in steps of half its width; only if all of them are stable, beyond it.
 //     Beyond a wide window no flight is stable, as the vibrations of a ball stand so close that one
-//     of them is in it. Through a bounce, or in large vibrations, narrow windows are left out:
-//     frequencies change with compression, and no vibration stays in one for long.
+//     of them is in it. Through a bounce, or in large vibrations, narrow windows are not
+//     climbed through: frequencies change with compression, and no vibration stays in one for long.
+//     What bisection finds there is the edge of the wide window, or, of a ball that then lies still
+//     for thousands of periods, one at or below which a vibration grew in a narrow one.
 //  7. A bounce starts just above the wall and lasts as long as the same bounce took at a quarter of
 //     the stable step (or less, where that is not stable), and a quarter more. The stiffest state
 //     seen on that way gives the prediction.
