@@ -55,6 +55,7 @@ struct Options {
   std::vector<std::string> methods;
   std::optional<std::vector<double>> speeds, gravities, disturbances;
   bool flight_only = false;
+  bool undisturbed = false;
   bool quick = false;
   EdgeCriterion criterion;
   int threads = 0;
@@ -188,8 +189,8 @@ SweepRequest request_of(const Options& options, const SceneFile& file) {
   using List = std::vector<double>;
   request.speeds = options.speeds.value_or(options.quick ? List{} : List{1, 3, 10, 30});
   request.gravities = options.gravities.value_or(options.quick ? List{} : List{0, 0.98, 9.8, 98});
-  request.disturbances =
-      options.disturbances.value_or(options.quick ? List{} : List{1e-3, 3e-3, 1e-2, 2e-2, 3e-2});
+  request.disturbances = options.disturbances.value_or(
+      options.quick || options.undisturbed ? List{} : List{1e-3, 3e-3, 1e-2, 2e-2, 3e-2});
   for (const double size : request.disturbances) demand("--disturbed", size, 0.0);
   for (const double speed : request.speeds) demand("--speed", speed, 0.0);
   for (const double g : request.gravities) demand("--g", g, 0.0, true);
@@ -229,9 +230,12 @@ std::string arguments_json(const Options& options, const std::vector<SweepCase>&
 }
 
 // Work to expect of a case, in steps.
-double expected_work(const SweepCase& each) {
+double expected_work(const SweepCase& each, const EdgeCriterion& usual) {
   if (each.edge.passage == Passage::bounce) return 3e5;
-  const double runs = each.edge.disturbance == edge_disturbance ? 8.0 : 40.0;
+  // Bisected, or climbed to.
+  const bool longer = each.edge.criterion.periods > usual.periods;
+  const bool climbed = longer || each.edge.disturbance != edge_disturbance;
+  const double runs = climbed ? 40.0 : 8.0;
   return runs * 3.0 * each.edge.criterion.periods;
 }
 
@@ -255,7 +259,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
   for (const SweepCase& each : cases) {
     if (rows.contains(each.key)) continue;
     missing.push_back(each);
-    work += expected_work(each);
+    work += expected_work(each, options.criterion);
   }
   CaseProgress progress(::isatty(STDERR_FILENO) != 0, missing.size(), work);
   double done = 0.0;
@@ -279,7 +283,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
       const std::string line = edge_line(now[i].key, edge, seconds * share);
       directory.add(line);
       rows[now[i].key] = line;
-      done += expected_work(now[i]);
+      done += expected_work(now[i], options.criterion);
     }
     rest = rest.subspan(now.size());
     progress.update(missing.size() - rest.size(), done);
@@ -343,10 +347,13 @@ void add_measuring_options(CLI::App& command, Options& options, CLI::Option* pre
                                "Gravities at the scene's E and speed of impact, cm/s^2 "
                                "[0,0.98,9.8,98]"))
       ->delimiter(',');
-  measuring(command.add_option("--disturbed", options.disturbances,
-                               "Disturbances of flights at the scene's E, in shortest bonds "
-                               "[0.001,0.003,0.01,0.02,0.03]"))
-      ->delimiter(',');
+  auto* sizes =
+      measuring(command.add_option("--disturbed", options.disturbances,
+                                   "Disturbances of flights at the scene's E, in shortest bonds "
+                                   "[0.001,0.003,0.01,0.02,0.03]"));
+  sizes->delimiter(',');
+  measuring(command.add_flag("--no-disturbed", options.undisturbed, "None of those"))
+      ->excludes(sizes);
   measuring(command.add_flag("--flight-only", options.flight_only, "Leave the bounces out"));
   measuring(command.add_flag("--quick", options.quick,
                              "3 values of E from 1000, no other speeds, gravities, disturbances"));
@@ -386,6 +393,10 @@ void add_stability_command(CLI::App& program, CommandContext& context) {
       "edge\n"
       "comes nearer (bounce run reports how near, and monitor.csv has it in the column\n"
       "stable_part).\n"
+      "The limit is where the first unstable step lies. Where that is the start of a narrow "
+      "window\n"
+      "(blanes-moan-4, blanes-moan-6) a flight of --periods may be stable beyond it: the edge\n"
+      "predicted for the criterion is then another, and the limit is measured by longer flights.\n"
       "Without --predict the edge is measured: in free flight and through a bounce over E, at one\n"
       "time step the largest E, and over speed of impact and gravity. Results: edge.csv (a row a\n"
       "case), table.txt (as printed), origin.json, scene.toml. A sweep that is stopped goes on "

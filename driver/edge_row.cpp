@@ -13,7 +13,7 @@ namespace bounce {
 namespace {
 
 constexpr std::size_t key_columns = edge_key_columns;
-constexpr std::size_t columns = key_columns + 12;
+constexpr std::size_t columns = key_columns + 13;
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
@@ -59,9 +59,9 @@ class Reader {
 }  // namespace
 
 const char* const edge_header =
-    "method,passage,sought,E,dt,g,speed,disturbed,growth,periods,outcome,predicted,stable,unstable,"
-    "flight,"
-    "measured_over_predicted,part_used_at_edge,smallest_ratio,left_wall,runs,steps,seconds\n";
+    "method,passage,sought,E,dt,g,speed,disturbed,growth,periods,outcome,predicted,strict,stable,"
+    "unstable,flight,measured_over_predicted,part_used_at_edge,smallest_ratio,left_wall,runs,steps,"
+    "seconds\n";
 
 std::string name_of(Passage passage) { return passage == Passage::flight ? "flight" : "bounce"; }
 
@@ -97,10 +97,10 @@ std::string edge_line(const std::string& key, const Edge& edge, double seconds) 
   std::replace(outcome.begin(), outcome.end(), ',', ';');
   std::replace(outcome.begin(), outcome.end(), '\n', ' ');
   const bool both = edge.stable > 0.0 && edge.predicted > 0.0;
-  return fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4g},{:.4g},{},{},{},{:.3g}", key,
-                     outcome, edge.predicted, edge.stable, edge.unstable, edge.flight,
-                     both ? fmt::format("{:.4f}", edge.stable / edge.predicted) : "", edge.used,
-                     edge.ratio, edge.left ? 1 : 0, edge.runs, edge.steps, seconds);
+  return fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.4g},{:.4g},{},{},{},{:.3g}",
+                     key, outcome, edge.predicted, edge.strict, edge.stable, edge.unstable,
+                     edge.flight, both ? fmt::format("{:.4f}", edge.stable / edge.predicted) : "",
+                     edge.used, edge.ratio, edge.left ? 1 : 0, edge.runs, edge.steps, seconds);
 }
 
 std::optional<EdgeRow> read_edge_line(const std::string& line) {
@@ -126,6 +126,7 @@ std::optional<EdgeRow> read_edge_line(const std::string& line) {
         read.one_of({EdgeOutcome::found, EdgeOutcome::always_stable, EdgeOutcome::always_unstable});
   }
   row.edge.predicted = read.number();
+  row.edge.strict = read.number();
   row.edge.stable = read.number();
   row.edge.unstable = read.number();
   row.edge.flight = read.number();

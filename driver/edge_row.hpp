@@ -9,8 +9,8 @@
 
 namespace bounce {
 
-/// The columns. What is sought, E or dt, is empty in the first columns; predicted, flight, stable
-/// and unstable are in its unit.
+/// The columns. What is sought, E or dt, is empty in the first columns; predicted (for the
+/// criterion), strict (by the method's limit), flight, stable and unstable are in its unit.
 extern const char* const edge_header;
 
 /// The first columns of a case: they name it among all of a sweep.

@@ -31,6 +31,7 @@ class Sweep {
       base_.criterion = request_.criterion;
       base_.scene.time.method = method;
       add_passage(Passage::flight);
+      add_strict_limit();
       add_disturbances();
       if (!bounces_) continue;
       add_passage(Passage::bounce);
@@ -79,6 +80,16 @@ class Sweep {
       edge.criterion.periods *= factor;
       add(edge);
     }
+  }
+
+  // So long a flight that the first unstable window shows, where the criterion lets it pass.
+  void add_strict_limit() {
+    EdgeCase edge = start(Passage::flight);
+    const double periods =
+        periods_for_strict_limit(edge.scene, edge.initial, edge.criterion.growth);
+    if (!(periods > edge.criterion.periods && std::isfinite(periods))) return;
+    edge.criterion.periods = std::strtod(fmt::format("{:.2g}", periods).c_str(), nullptr);
+    add(edge);
   }
 
   void add_disturbances() {

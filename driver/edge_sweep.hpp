@@ -33,7 +33,8 @@ struct SweepCase {
 };
 
 /// For each method: free flight and bounce over E at the scene's speed of impact; the largest E at
-/// the given step; flights over disturbance, bounces over speed and over gravity at the scene's E;
+/// the given step; a flight long enough to show the first unstable window, where the criterion does
+/// not; flights over disturbance, bounces over speed and over gravity at the scene's E;
 /// flight and bounce at the scene's E once more by criteria ten times stricter and looser. Each
 /// case once. Throws SceneError.
 std::vector<SweepCase> make_sweep(const SweepRequest& request);

@@ -49,6 +49,7 @@ class Table {
   std::string text() {
     how();
     flights();
+    strict_limits();
     disturbances();
     largest_elasticity();
     bounces();
@@ -80,6 +81,13 @@ class Table {
     return same(row.criterion, criterion_) && row.disturbance == edge_disturbance;
   }
 
+  // Neither the criterion nor a tenth or ten times of it.
+  [[nodiscard]] bool longer(const EdgeRow& row) const {
+    return row.disturbance == edge_disturbance && row.criterion.growth == criterion_.growth &&
+           row.criterion.periods > criterion_.periods &&
+           row.criterion.periods != 10.0 * criterion_.periods;
+  }
+
   void disturbances() {
     const auto found =
         rows([&](const EdgeRow& row) { return row.disturbance != edge_disturbance; });
@@ -98,28 +106,60 @@ class Table {
     }
   }
 
+  // Largest and least of a ratio.
+  struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = 0.0;
+    bool whole = true;  // no ratio was a NaN
+    void add(double value) {
+      whole = whole && value > 0.0;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    [[nodiscard]] std::string text() const {
+      return whole ? fmt::format("{:.3f} ... {:.3f}", low, high) : "-";
+    }
+  };
+
   void flights() {
-    text_ += fmt::format("\nFree flight: largest stable step\n{:<14} {:>5} {:>20} {:>14} {:>22}\n",
-                         "method", "cases", "E", "dt sqrt(E)", "measured/predicted");
+    text_ += fmt::format(
+        "\nFree flight: largest stable step, over that predicted for the criterion and that at "
+        "which the\nfirst vibration grows, however slowly (strict)\n"
+        "{:<14} {:>5} {:>16} {:>11} {:>11} {:>18} {:>18}\n",
+        "method", "cases", "E", "dt sqrt(E)", "strict", "measured/predicted", "measured/strict");
     for (const std::string& method : methods_) {
       const auto found = rows([&](const EdgeRow& row) {
         return row.method == method && row.passage == Passage::flight &&
                row.sought == Sought::step && usual(row);
       });
-      double low = std::numeric_limits<double>::infinity(), high = 0.0, e_low = low, e_high = 0.0;
-      double product = 0.0;
+      Range predicted, strict, e;
+      double product = 0.0, strict_product = 0.0;
+      const auto n = static_cast<double>(found.size());
       for (const EdgeRow* row : found) {
-        const double part = row->edge.stable / row->edge.predicted;
-        low = std::min(low, part);
-        high = std::max(high, part);
-        e_low = std::min(e_low, row->elasticity);
-        e_high = std::max(e_high, row->elasticity);
-        product +=
-            row->edge.stable * std::sqrt(row->elasticity) / static_cast<double>(found.size());
+        predicted.add(row->edge.stable / row->edge.predicted);
+        strict.add(row->edge.stable / row->edge.strict);
+        e.add(row->elasticity);
+        product += row->edge.stable * std::sqrt(row->elasticity) / n;
+        strict_product += row->edge.strict * std::sqrt(row->elasticity) / n;
       }
-      text_ += fmt::format("{:<14} {:>5} {:>20} {:>14.5g} {:>22}\n", method, found.size(),
-                           fmt::format("{:g} ... {:g}", e_low, e_high), product,
-                           fmt::format("{:.3f} ... {:.3f}", low, high));
+      text_ += fmt::format("{:<14} {:>5} {:>16} {:>11.5g} {:>11.5g} {:>18} {:>18}\n", method,
+                           found.size(), fmt::format("{:g} ... {:g}", e.low, e.high), product,
+                           strict_product, predicted.text(), strict.text());
+    }
+  }
+
+  void strict_limits() {
+    const auto found = rows([&](const EdgeRow& row) { return longer(row); });
+    if (found.empty()) return;
+    text_ += fmt::format(
+        "\nThe strict limit at E = {:g}, where flights of {:g} periods pass over it: so long "
+        "that the\nfirst unstable window shows, climbing through it\n"
+        "{:<14} {:>8} {:>12} {:>12} {:>12} {:>20}\n",
+        elasticity_, criterion_.periods, "method", "periods", "strict, s", "dt, s", "unstable, s",
+        "measured/strict");
+    for (const EdgeRow* row : found) {
+      text_ += fmt::format("{:<14} {:>8g} {:>12.6g} {:>12} {:>12.6g} {:>20}\n", row->method,
+                           row->criterion.periods, row->edge.strict, measured(row->edge),
+                           row->edge.unstable, over(row->edge.stable, row->edge.strict));
     }
   }
 
@@ -186,19 +226,23 @@ class Table {
 
   void criteria() {
     const auto found = rows([&](const EdgeRow& row) {
-      return !same(row.criterion, criterion_) && row.disturbance == edge_disturbance;
+      return !same(row.criterion, criterion_) && row.disturbance == edge_disturbance &&
+             !longer(row);
     });
     if (found.empty()) return;
     text_ += fmt::format(
-        "\nThe edge at E = {:g} by other criteria\n{:<14} {:<8} {:>8} {:>8} {:>12} {:>10}\n",
-        elasticity_, "method", "passage", "growth", "periods", "dt, s", "moves by");
+        "\nThe edge at E = {:g} by other criteria\n"
+        "{:<14} {:<8} {:>8} {:>8} {:>12} {:>20} {:>10}\n",
+        elasticity_, "method", "passage", "growth", "periods", "dt, s", "measured/predicted",
+        "moves by");
     for (const EdgeRow* row : found) {
       const EdgeRow* usual = beside(*row);
       const double move = usual == nullptr ? std::numeric_limits<double>::quiet_NaN()
                                            : row->edge.stable / usual->edge.stable - 1.0;
-      text_ += fmt::format("{:<14} {:<8} {:>8g} {:>8g} {:>12} {:>8.2f} %{}\n", row->method,
+      text_ += fmt::format("{:<14} {:<8} {:>8g} {:>8g} {:>12} {:>20} {:>8.2f} %{}\n", row->method,
                            name_of(row->passage), row->criterion.growth, row->criterion.periods,
-                           measured(row->edge), 100.0 * move,
+                           measured(row->edge), over(row->edge.stable, row->edge.predicted),
+                           100.0 * move,
                            std::abs(move) < allowed_move ? "" : "  DEPENDS on the criterion");
     }
   }

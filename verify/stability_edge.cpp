@@ -24,9 +24,20 @@ constexpr double longest_bounce = 12'000.0;
 constexpr double longer = 1.25;  // than the bounce that was followed
 constexpr double lowest_part = 1 / 200.0;
 constexpr double highest_part = 8.0;
+// Even at rest frequencies swing by 0.1 % with what the rounding of the start has strained: a
+// vibration is in a window as wide as that half of its time.
+constexpr double narrow_spare = 2.0;
+constexpr double around_window = 1.005;        // narrow; rounded starts move frequencies by 0.2 %
 constexpr std::int64_t look_at_edge = 3;       // steps, about a period there
 constexpr std::int64_t look_in_flight = 2000;  // steps
 constexpr std::int64_t look_in_bounce = 500;   // a wall may cool what a step has heated
+
+// By what, as a logarithm, the energy of the fastest vibration has to grow for the ball's to exceed
+// `growth` times its start: at random it has one (2 N - 3)th of that.
+double growth_of_fastest(const Problem& problem, double growth) {
+  const double vibrations = std::max(2.0 * static_cast<double>(problem.initial.size()) - 3.0, 1.0);
+  return std::log(growth * vibrations);
+}
 
 /// One case on its way to its edge.
 class Measurement {
@@ -67,17 +78,13 @@ class Measurement {
     edge_.ratio = course.margin->ratio;
     // Part of the stable step used -> the step, or E, that would have used all of it.
     const double part = course.margin->part;
-    edge_.predicted = case_->sought == Sought::step ? problem.step / part
-                                                    : elasticity_of(problem) / (part * part);
+    edge_.strict = case_->sought == Sought::step ? problem.step / part
+                                                 : elasticity_of(problem) / (part * part);
+    edge_.predicted = edge_.strict * edge_.flight / strict_flight_;
   }
   // Once the bounce has been followed, or at once in flight.
   void begin() {
-    if (refused()) return;
-    const double power = case_->sought == Sought::step ? 1.0 : 2.0;
-    const double from = edge_.predicted > 0.0 ? edge_.predicted : lowest_part * edge_.flight;
-    bracket_.emplace(from, edge_ratio, power, std::pow(lowest_part, power) * edge_.flight,
-                     std::pow(highest_part, power) * edge_.flight,
-                     case_->disturbance != edge_disturbance);
+    if (!refused()) search_next();
   }
 
   [[nodiscard]] Problem next_problem() const { return at_value(bracket_->next()); }
@@ -95,6 +102,8 @@ class Measurement {
     bracket_->take(stable);
     ++edge_.runs;
     edge_.steps += steps;
+    // A narrow window in which nothing grew, or below which something did.
+    if (bracket_->done() && !bracket_->closed() && in_narrow_) search_next();
   }
   // The bounce at the edge itself: does the running margin see it coming?
   [[nodiscard]] bool has_edge_to_follow() const {
@@ -129,11 +138,65 @@ class Measurement {
     if (!fastest) return refuse("a bond has no finite stiffness");
     if (!(fastest->omega > 0.0)) return refuse("nothing vibrates");
     omega_ = fastest->omega;
+    strict_flight_ = value_of(stability_limit(*start_.method));
+    find_windows();
+    edge_.flight = value_of(windows_.front().edge);
+    if (case_->passage == Passage::flight) {
+      edge_.predicted = edge_.flight;
+      edge_.strict = strict_flight_;
+    }
+  }
+
+  // Neither pressed nor vibrating visibly: else no vibration stays in a narrow window.
+  [[nodiscard]] bool keeps_frequencies() const {
+    return case_->passage == Passage::flight && case_->disturbance == edge_disturbance;
+  }
+
+  // z of the fastest vibration at rest -> the step, or E, that has it.
+  [[nodiscard]] double value_of(double z) const {
+    const double part = start_.step * omega_ / z;
+    return case_->sought == Sought::step ? z / omega_ : case_->scene.law.elasticity / (part * part);
+  }
+
+  // The windows that exceed the criterion, up to the first that cannot be stepped over.
+  void find_windows() {
+    const auto stages = start_.method->stages;
+    const double wanted =
+        growth_of_fastest(start_, case_->criterion.growth) / case_->criterion.periods;
+    for (const UnstableWindow& window : unstable_windows(stages)) {
+      const bool narrow = window.to < narrow_window * window.from;
+      if (narrow && !keeps_frequencies()) continue;
+      const double spare = narrow ? narrow_spare : 1.0;
+      if (const auto edge = first_growing(stages, window, spare * wanted)) {
+        windows_.push_back({*edge, window, narrow});
+        if (!narrow) return;
+      }
+    }
+    // By so lax a criterion no step is unstable: the limit is where to begin.
     const double limit = stability_limit(*start_.method);
-    const double part = start_.step * omega_ / limit;
-    edge_.flight = case_->sought == Sought::step ? limit / omega_
-                                                 : case_->scene.law.elasticity / (part * part);
-    if (case_->passage == Passage::flight) edge_.predicted = edge_.flight;
+    if (windows_.empty()) windows_.push_back({limit, {limit, limit, limit, 0.0}, false});
+  }
+
+  // Begins the search in the next window.
+  void search_next() {
+    const double power = case_->sought == Sought::step ? 1.0 : 2.0;
+    const Window& window = windows_[std::min(next_window_, windows_.size() - 1)];
+    in_narrow_ = window.narrow && next_window_ < windows_.size();
+    ++next_window_;
+    if (in_narrow_) {
+      // In steps of half its width, from as far below as frequencies at the start may be off.
+      const double lowest = value_of(window.at.from / around_window);
+      const double highest = value_of(window.at.to * around_window);
+      const double step = std::pow(window.at.to / window.at.from, 0.5 * power);
+      bracket_.emplace(lowest, step, power, lowest, highest, true);
+      return;
+    }
+    const bool climb = case_->disturbance != edge_disturbance;
+    const double lowest = std::pow(lowest_part, power) * edge_.flight;
+    const double highest = std::pow(highest_part, power) * edge_.flight;
+    double from = climb ? edge_.strict : value_of(window.edge);
+    if (case_->passage == Passage::bounce) from = edge_.predicted > 0.0 ? edge_.predicted : lowest;
+    bracket_.emplace(from, edge_ratio, power, lowest, highest, climb);
   }
 
   // The scene ready to run, at its own step and E.
@@ -179,8 +242,18 @@ class Measurement {
     return at_value(edge_.flight * (case_->sought == Sought::step ? part : part * part));
   }
 
+  struct Window {
+    double edge;  // z at which the criterion is exceeded
+    UnstableWindow at;
+    bool narrow;
+  };
+
   const EdgeCase* case_;
   Problem start_;
+  std::vector<Window> windows_;
+  std::size_t next_window_ = 0;
+  bool in_narrow_ = false;  // the search climbs through a narrow window
+  double strict_flight_ = 0.0;
   double omega_ = 0.0;  // 1/s, at the start with the scene's E
   bool followed_ = false;
   int follows_ = 0;
@@ -264,6 +337,14 @@ bool run_round(Measurements& all, Passage passage, const TrialOptions& options) 
 }
 
 }  // namespace
+
+double periods_for_strict_limit(const Scene& scene, const std::optional<State>& initial,
+                                double growth) {
+  const Problem problem = make_problem(scene, initial);
+  const auto windows = unstable_windows(problem.method->stages);
+  if (windows.empty()) return std::numeric_limits<double>::infinity();
+  return narrow_spare * growth_of_fastest(problem, growth) / windows.front().growth;
+}
 
 std::optional<std::vector<Edge>> measure_edges(std::span<const EdgeCase> cases,
                                                const TrialOptions& options) {

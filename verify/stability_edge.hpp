@@ -20,9 +20,21 @@
 //     203). EdgeCase::disturbance shows it in flight; a hard impact disturbs enough by itself.
 //     Beyond such a place some steps are stable again: for these cases the lowest edge is sought,
 //     from below.
-//     The narrow unstable windows of some methods (stability_limit.hpp) are passed over: growth in
-//     them takes longer than the criterion's periods.
-//  5. A bounce starts just above the wall and lasts as long as the same bounce took at a quarter of
+//  5. Two predictions stand beside it. The strict one is the method's limit, the first place at
+//     which any vibration grows, however slowly. The other is for the criterion itself: the first
+//     place at which the fastest vibration, which has one (2 N - 3)th of the energy of a start
+//     disturbed at random, grows within the periods to more than the factor times all of it. The
+//     two are the same but for blanes-moan-4 and blanes-moan-6, whose first unstable window is
+//     narrow (stability_limit.hpp).
+//  6. Bisection steps over a narrow window, most likely, and what it finds then is the edge of the
+//     next wide one. So a flight whose criterion a narrow window exceeds is sought by climbing
+//     through that window in steps of half its width; only if all of them are stable, beyond it.
+//     Beyond a wide window no flight is stable, as the vibrations of a ball stand so close that one
+//     of them is in it. Through a bounce, or in large vibrations, narrow windows are not
+//     climbed through: frequencies change with compression, and no vibration stays in one for long.
+//     What bisection finds there is the edge of the wide window, or, of a ball that then lies still
+//     for thousands of periods, one at or below which a vibration grew in a narrow one.
+//  7. A bounce starts just above the wall and lasts as long as the same bounce took at a quarter of
 //     the stable step (or less, where that is not stable), and a quarter more. The stiffest state
 //     seen on that way gives the prediction.
 #pragma once
@@ -74,21 +86,32 @@ enum class EdgeOutcome {
 /// An edge, in s or in units of E.
 struct Edge {
   EdgeOutcome outcome = EdgeOutcome::refused;
-  std::string why;         ///< of a refusal, one clause
-  double stable = 0.0;     ///< the largest value found stable; 0 if none
-  double unstable = 0.0;   ///< the smallest found unstable, at most 1 % above; infinite if none
-  double predicted = 0.0;  ///< 0 where there was nothing to predict from
-  double flight = 0.0;     ///< predicted for free flight of the same ball
-  double used = 0.0;   ///< part of the stable step that the bounce at `stable` used at its worst
-  double ratio = 0.0;  ///< R/R0 of the stiffest bond of the stiffest state of a bounce; else 0
-  double speed = 0.0;  ///< of the impact, cm/s
-  bool left = false;   ///< the ball left the wall; false for one that stays down, and in flight
+  std::string why;        ///< of a refusal, one clause
+  double stable = 0.0;    ///< the largest value found stable; 0 if none
+  double unstable = 0.0;  ///< the smallest found unstable, at most 1 % above; infinite if none
+  /// For the criterion, in a bounce from the running margin; 0 where there was nothing to predict
+  /// from.
+  double predicted = 0.0;
+  double strict = 0.0;  ///< the same by the method's limit, by which bounce run warns and refuses
+  double flight = 0.0;  ///< predicted for free flight of the same ball, as `predicted` is
+  double used = 0.0;    ///< part of the stable step that the bounce at `stable` used at its worst
+  double ratio = 0.0;   ///< R/R0 of the stiffest bond of the stiffest state of a bounce; else 0
+  double speed = 0.0;   ///< of the impact, cm/s
+  bool left = false;    ///< the ball left the wall; false for one that stays down, and in flight
   int runs = 0;
   std::int64_t steps = 0;  ///< of all runs, had none been cut short
 };
 
 /// Brackets are closed to this ratio.
 inline constexpr double edge_ratio = 1.01;
+
+/// A window of unstable steps is narrow, and could be stepped over, if its ends are within this.
+inline constexpr double narrow_window = 1.02;
+
+/// The periods after which the criterion's growth is exceeded in the first unstable window of the
+/// scene's method, if that is narrow. Throws SceneError.
+double periods_for_strict_limit(const Scene& scene, const std::optional<State>& initial,
+                                double growth);
 
 /// Measures edges of cases that differ in numbers alone (same method, law, rings), side by side.
 /// The answers depend on neither threads nor on which cases are measured together. Nothing if

@@ -17,7 +17,9 @@
 // vibrations of every frequency up to its fastest, and a run has millions of steps.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "kernels/stepping/method.hpp"
 
@@ -35,6 +37,26 @@ double half_trace(std::span<const Stage> stages, double z);
 /// does).
 double stability_limit(std::span<const Stage> stages);
 double stability_limit(const Method& method);
+
+/// What the energy of a vibration grows by in one of its periods, as a logarithm: 0 where a step is
+/// stable, infinite where the trace is not finite.
+double growth_per_period(std::span<const Stage> stages, double z);
+
+/// Steps between two stable ones.
+struct UnstableWindow {
+  double from, to;  ///< z; a window that is open at the end of the search ends there
+  double worst;     ///< the z of the greatest growth (in wide ones, on the grid of the search)
+  double growth;    ///< growth_per_period there
+};
+
+/// All unstable windows up to twice the number of stages, lowest first. Stable steps between two
+/// windows are seen if they are wider than 0.001.
+std::vector<UnstableWindow> unstable_windows(std::span<const Stage> stages);
+
+/// Where in the window growth_per_period first exceeds `growth`; nothing if nowhere. (It is taken
+/// to rise up to the worst place.)
+std::optional<double> first_growing(std::span<const Stage> stages, const UnstableWindow& window,
+                                    double growth);
 
 /// The largest stable step (s) for vibrations up to `omega` (1/s); infinity for omega = 0.
 double stable_step(const Method& method, double omega);

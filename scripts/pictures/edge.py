@@ -5,13 +5,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from pictures import drawing
 from pictures.drawing import plt
 from pictures.run import RunError
 
 METHOD_COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c"]
-STABLE, UNSTABLE = "#eef4f0", "#f7ecea"
+STABLE, BETWEEN, UNSTABLE = "#eef4f0", "#faf6e6", "#f7ecea"
 
 
 @dataclass
@@ -43,7 +44,7 @@ def read_sweep(folder):
                     row[key] = float(text) if text else math.nan
     except (OSError, TypeError, ValueError) as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
-    if not rows or any(key not in rows[0] for key in (*TEXTS, "E", "dt", "stable", "unstable")):
+    if not rows or any(key not in rows[0] for key in (*TEXTS, "E", "dt", "predicted", "strict", "stable")):
         raise RunError(f"{path}: no rows of bounce stability")
     return Sweep(path, rows)
 
@@ -53,55 +54,117 @@ def methods(sweep):
 
 
 def plane(sweep, examples):
-    """Stable and unstable steps over E; `examples`: number to (E, dt)."""
-    figure, axes = plt.subplots(figsize=(8.2, 6.0), layout="constrained")
-    e = np.array(sorted(row["E"] for row in sweep.where(passage="flight", sought="dt")))
-    product = product_of(sweep, methods(sweep)[0])
-    e_line = np.geomspace(e[0] / 3, e[-1] * 30, 50)
-    low, high = 2e-7, 0.2
-    edge = product / np.sqrt(e_line)
-    axes.fill_between(e_line, low, edge, color=STABLE, zorder=0)
-    axes.fill_between(e_line, edge, high, color=UNSTABLE, zorder=0)
+    """Stable and unstable steps over E; `examples`: number to (E, dt). Below it Δt √E, magnified."""
+    figure, (axes, zoom) = plt.subplots(2, 1, figsize=(8.6, 9.4), sharex=True, layout="constrained",
+                                        height_ratios=(1.5, 1.0))
+    flights = sweep.where(passage="flight", sought="dt")
+    e = sorted(row["E"] for row in flights)
+    e_line = np.geomspace(e[0] / 3, e[-1] * 300, 50)
+    low, high = 1e-7, 0.2
+    products = {method: product_of(sweep, method) for method in methods(sweep)}
+    least, most = (choice(products.values()) / np.sqrt(e_line) for choice in (min, max))
+    axes.fill_between(e_line, low, least, color=STABLE, zorder=0)
+    axes.fill_between(e_line, least, most, color=BETWEEN, zorder=0, linewidth=0)
+    axes.fill_between(e_line, most, high, color=UNSTABLE, zorder=0)
     axes.text(20, 2e-5, "stable", fontsize=13, color="#5f8a70")
-    axes.text(2e7, 6e-3, "unstable", fontsize=13, color="#b0645c")
-    by_product = {}  # methods with the same limit share a line
-    for method in methods(sweep):
-        by_product.setdefault(f"{product_of(sweep, method):.4g}", []).append(method)
-    for number, (text, names) in enumerate(by_product.items()):
-        axes.plot(e_line, float(text) / np.sqrt(e_line), zorder=2,
-                  color=METHOD_COLOURS[number % len(METHOD_COLOURS)] if number else drawing.INK,
-                  linewidth=0.8 if number else 1.1,
-                  label=f"predicted: Δt √E = {text} ({', '.join(names)})")
+    axes.text(1e4, 1.2e-2, "unstable", fontsize=13, color="#b0645c")
+    zoom.axhspan(0.0, min(products.values()), color=STABLE, zorder=0)
+    zoom.axhspan(min(products.values()), max(products.values()), color=BETWEEN, zorder=0, linewidth=0)
+    zoom.axhspan(max(products.values()), 10.0, color=UNSTABLE, zorder=0)
     for number, method in enumerate(methods(sweep)):
-        colour = METHOD_COLOURS[number % len(METHOD_COLOURS)]
-        size = 7.5 - 2.5 * number / max(len(methods(sweep)) - 1, 1)
-        for passage, marker in (("flight", "o"), ("bounce", "v")):
-            rows = sweep.where(method=method, passage=passage, sought="dt")
-            if passage == "bounce":
-                own = {row["speed"] for row in sweep.where(passage="bounce", sought="E")}
-                gravity = {row["g"] for row in sweep.where(passage="bounce", sought="E")}
-                rows = [row for row in rows if row["speed"] in own and row["g"] in gravity]
-            rows = [row for row in rows if row["outcome"] == "found"]
-            axes.plot([row["E"] for row in rows], [row["stable"] for row in rows], marker,
-                      markerfacecolor="none" if passage == "flight" else colour,
-                      markeredgecolor=colour, markersize=size if passage == "flight" else 3.0,
-                      linewidth=0, zorder=3, label=f"{method}, measured: {passage}")
-    draw_slope(axes, product)
+        draw_method(axes, zoom, sweep, method, number, e_line)
+    name_strict_limits(zoom, sweep)
+    draw_slope(axes, min(products.values()))
     draw_fixed_step(axes, sweep)
     draw_examples(axes, examples)
     axes.set(xscale="log", yscale="log", xlim=(e_line[0], e_line[-1]), ylim=(low, high),
-             xlabel="E", ylabel="time step Δt, s")
-    axes.legend(frameon=False, loc="upper right", fontsize=8)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    drawing.set_caption(figure, "How large a time step is stable?")
+             ylabel="time step Δt, s")
+    axes.legend(handles=legend_of(axes), frameon=False, loc="upper right", fontsize=8)
+    zoom.set(yscale="log", ylim=(0.55 * min(products.values()), 1.35 * max(products.values())),
+             xlabel="E", ylabel="Δt √E")
+    ticks = sorted({float(f"{value:.3g}") for value in
+                    [*products.values(), *(product_of(sweep, method, "strict") for method in products)]})
+    ticks = [tick for i, tick in enumerate(ticks) if i == 0 or tick > 1.07 * ticks[i - 1]]
+    zoom.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    zoom.minorticks_off()
+    for panel in (axes, zoom):
+        for side in ("top", "right"):
+            panel.spines[side].set_visible(False)
+    drawing.set_caption(figure, "How large a time step is stable? Between the lines: by method. Below: times √E")
     return figure
 
 
-def product_of(sweep, method):
+def draw_method(axes, zoom, sweep, method, number, e_line):
+    """Predicted lines and measured edges of a method in both panels; its name stands in the lower one."""
+    colour = METHOD_COLOURS[number % len(METHOD_COLOURS)]
+    product, strict = product_of(sweep, method), product_of(sweep, method, "strict")
+    axes.plot(e_line, product / np.sqrt(e_line), color=colour, linewidth=0.9, zorder=2, label=method)
+    zoom.axhline(product, color=colour, linewidth=0.9, zorder=2)
+    if strict < 0.98 * product:
+        zoom.axhline(strict, color=colour, linewidth=1.1, linestyle=(0, (2, 2 + number)), zorder=2)
+    # Methods with the same edge: one name after the other, the later marker within the earlier.
+    same = [other for other in methods(sweep)[:number] if abs(product_of(sweep, other) / product - 1.0) < 0.02]
+    indent = 5.4 * sum(len(other) + 2 for other in same)
+    right = 1.7 * max(row["E"] for row in sweep.where(passage="flight", sought="dt"))
+    # Below the line where a strict limit, which is named above its line, is just above.
+    crowded = any(1.0 < product_of(sweep, other, "strict") / product < 1.15 for other in methods(sweep))
+    zoom.annotate(method, (right, product), xytext=(indent, -11 if crowded else 3),
+                  textcoords="offset points", fontsize=8.5, color=colour)
+    own = sweep.where(passage="bounce", sought="E")
+    speeds, gravities = {row["speed"] for row in own}, {row["g"] for row in own}
+    for passage, marker in (("flight", "o"), ("bounce", "v")):
+        rows = [row for row in sweep.where(method=method, passage=passage, sought="dt")
+                if row["outcome"] == "found"
+                and (passage == "flight" or (row["speed"] in speeds and row["g"] in gravities))]
+        style = {"markerfacecolor": "none" if passage == "flight" else colour, "markeredgecolor": colour,
+                 "linewidth": 0, "zorder": 3,
+                 "markersize": 3.0 if passage == "bounce" else 4.0 if same else 5.5}
+        elasticity = np.array([row["E"] for row in rows])
+        stable = np.array([row["stable"] for row in rows])
+        axes.plot(elasticity, stable, marker, **style)
+        zoom.plot(elasticity, stable * np.sqrt(elasticity), marker, **style)
+    # Strict limits as long flights show them.
+    rows = [row for row in longer_flights(sweep, method) if row["outcome"] == "found"]
+    zoom.plot([row["E"] for row in rows], [row["stable"] * math.sqrt(row["E"]) for row in rows], "X",
+              color=colour, markersize=7, zorder=4)
+
+
+def name_strict_limits(zoom, sweep):
+    """Above the dotted lines, which lie near each other."""
+    apart = [method for method in methods(sweep)
+             if product_of(sweep, method, "strict") < 0.98 * product_of(sweep, method)]
+    if not apart:
+        return
+    place = max(product_of(sweep, method, "strict") for method in apart)
+    right = 1.7 * max(row["E"] for row in sweep.where(passage="flight", sought="dt"))
+    zoom.annotate("dotted: strict limits of\n" + ",\n".join(apart), (right, place), xytext=(0, 4),
+                  textcoords="offset points", fontsize=7.5, color="#5a6068")
+
+
+def legend_of(axes):
+    """The methods' lines, highest edge first, then the markers."""
+    lines = sorted((line for line in axes.lines if not line.get_label().startswith("_")),
+                   key=lambda line: -line.get_ydata()[0])
+    grey = {"color": "#5a6068", "linewidth": 0}
+    return [*lines,
+            Line2D([], [], marker="o", markerfacecolor="none", label="measured in free flight", **grey),
+            Line2D([], [], marker="v", markersize=3.5, label="measured through a bounce", **grey),
+            Line2D([], [], marker="X", label="strict limit, measured by long flights (below)", **grey)]
+
+
+def longer_flights(sweep, method):
+    """Flights by which the strict limit is measured: neither the criterion nor ten times of it."""
+    usual = sweep.rows[0]
+    return [row for row in sweep.rows
+            if row["method"] == method and row["passage"] == "flight" and row["growth"] == usual["growth"]
+            and row["disturbed"] == usual["disturbed"]
+            and row["periods"] not in (0.1 * usual["periods"], usual["periods"], 10 * usual["periods"])]
+
+
+def product_of(sweep, method, which="predicted"):
     """Δt √E of the predicted edge of free flight."""
     flights = sweep.where(method=method, passage="flight", sought="dt")
-    return float(np.median([row["predicted"] * math.sqrt(row["E"]) for row in flights]))
+    return float(np.median([row[which] * math.sqrt(row["E"]) for row in flights]))
 
 
 def power_of_ten(value):
@@ -121,15 +184,15 @@ def draw_slope(axes, product):
 
 
 def draw_fixed_step(axes, sweep):
-    """The line of the fixed step, to the largest E that is stable on it."""
+    """The line of the fixed step, and the largest E on it that is stable for the first method."""
     rows = [row for row in sweep.where(passage="flight", sought="E") if row["outcome"] == "found"]
     if not rows:
         return
-    largest = max(rows, key=lambda row: row["stable"])
+    largest = rows[0]
     axes.axhline(largest["dt"], color=drawing.MARK, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
     axes.plot(largest["stable"], largest["dt"], "D", color=drawing.MARK, markersize=6, zorder=5)
-    axes.annotate(f"Δt = {power_of_ten(largest['dt'])} s fails\nabove E = {power_of_ten(largest['stable'])}",
-                  (largest["stable"], largest["dt"]), xytext=(-14, -27), textcoords="offset points",
+    axes.annotate(f"Δt = {power_of_ten(largest['dt'])} s fails\nabove E = {power_of_ten(largest['stable'])}\n({largest['method']})",
+                  (largest["stable"], largest["dt"]), xytext=(-14, -30), textcoords="offset points",
                   ha="right", va="center", fontsize=8.5, color=drawing.MARK)
 
 

@@ -15,6 +15,7 @@
 #include "driver/extreme_table.hpp"
 #include "driver/step_check.hpp"
 #include "kernels/model/problem.hpp"
+#include "kernels/stepping/method.hpp"
 
 namespace bounce {
 namespace {
@@ -46,20 +47,20 @@ TEST(ExtremeRows, CoverTheList) {
     names.insert(row.name);
     EXPECT_TRUE(row.like.empty() || names.count(row.like) == 1) << row.name;
   }
-  for (const char* name : {"elasticity-1e-6",    "elasticity-1e12",
-                           "impact-1",           "impact-10",
-                           "impact-100",         "impact-1000",
-                           "gravity-none",       "gravity-1e4",
-                           "law-7-13",           "law-2-4",
-                           "radii-10-11-12",     "radii-0.05",
-                           "rings-1e-6",         "bond-1e-3",
-                           "bond-1e-8",          "bond-1e3",
-                           "wall-behind",        "wall-touching",
-                           "wall-resting",       "wall-wedge",
-                           "gravity-collapse",   "edge-below-listing",
-                           "edge-above-listing", "offset-1e6",
-                           "offset-1e9"}) {
+  for (const char* name :
+       {"elasticity-1e-6",  "elasticity-1e12", "impact-1",      "impact-10",    "impact-100",
+        "impact-1000",      "gravity-none",    "gravity-1e4",   "law-7-13",     "law-2-4",
+        "radii-10-11-12",   "radii-0.05",      "rings-1e-6",    "bond-1e-3",    "bond-1e-8",
+        "bond-1e3",         "wall-behind",     "wall-touching", "wall-resting", "wall-wedge",
+        "gravity-collapse", "offset-1e6",      "offset-1e9"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
+  }
+  for (const Method& method : methods()) {
+    const std::string name(method.name);
+    for (const std::string& row :
+         {"edge-below-" + name, "edge-above-" + name, "edge-above-" + name + "-forced"}) {
+      EXPECT_EQ(names.count(row), 1U) << row;
+    }
   }
 }
 

@@ -119,6 +119,23 @@ TEST_F(DriverStabilityTest, WritesItsDirectory) {
   EXPECT_NE(err().find("--force"), std::string::npos) << err();
 }
 
+// The columns hold both predictions, and the table the flights that show the strict one.
+TEST_F(DriverStabilityTest, ShowsTheStrictLimitBesideTheCriterion) {
+  ASSERT_EQ(run({"example-2", "--flight-only", "--e", "16000", "--no-disturbed", "--methods",
+                 "leapfrog,blanes-moan-4", "--out", "s"}),
+            0)
+      << err();
+  const std::string csv = contents(folder_ / "s/edge.csv");
+  EXPECT_NE(csv.find(",predicted,strict,stable,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nblanes-moan-4,flight,dt,16000,,0,0,1e-06,100,2400,found,0.0006"),
+            std::string::npos)
+      << csv;
+  EXPECT_EQ(csv.find("leapfrog,flight,dt,16000,,0,0,1e-06,100,2400"), std::string::npos) << csv;
+  EXPECT_NE(out().find("The strict limit at E = 16000"), std::string::npos) << out();
+  // Ten times as long flights show the window, too: said, not hidden.
+  EXPECT_NE(out().find("DEPENDS"), std::string::npos) << out();
+}
+
 TEST_F(DriverStabilityTest, SameForAnyThreadsAndAfterAnyStop) {
   ASSERT_EQ(run(many("whole")), 0) << err();
   Words one = many("one");
@@ -196,6 +213,7 @@ TEST_F(DriverStabilityTest, BadInputIsSaid) {
   refused({"--periods", "inf"}, "--periods inf");
   refused({"--disturbed", "0"}, "--disturbed 0");
   refused({"--threads", "-3"}, "threads");
+  refused({"--no-disturbed", "--disturbed", "0.1"}, "disturbed");
   refused({"--json"}, "--predict");
   refused({"--predict", "--quick"}, "--predict");
   refused({"--out", "/dev/null/x"}, "/dev/null/x");

@@ -326,12 +326,26 @@ class Stability(unittest.TestCase):
         from pictures.run import RunError
 
         with tempfile.TemporaryDirectory() as folder:
-            sweep = ["stability", "example-2", "--flight-only", "--e", "10,1e5", "--methods", "leapfrog",
-                     "--disturbed", "0.001", "--periods", "20", "--out", f"{folder}/sweep"]
+            sweep = ["stability", "example-2", "--flight-only", "--e", "10,1e5", "--methods",
+                     "leapfrog,blanes-moan-4", "--no-disturbed", "--periods", "250", "--out", f"{folder}/sweep"]
             subprocess.run([os.environ["BOUNCE_PROGRAM"], *sweep], capture_output=True, check=True)
             read = edge.read_sweep(Path(folder) / "sweep")
-            self.assertEqual(edge.methods(read), ["leapfrog"])
-            self.assertEqual(len(read.where(passage="flight", sought="dt")), 3)
+            self.assertEqual(edge.methods(read), ["leapfrog", "blanes-moan-4"])
+            self.assertEqual(len(read.where(method="leapfrog", passage="flight", sought="dt")), 3)
+            # The strict limit below the edge by the criterion, and the flights that measure it.
+            strict, by_criterion = (edge.product_of(read, "blanes-moan-4", which) for which in ("strict", "predicted"))
+            self.assertLess(strict, 0.7 * by_criterion)
+            self.assertEqual(edge.longer_flights(read, "leapfrog"), [])
+            self.assertEqual(len(edge.longer_flights(read, "blanes-moan-4")), 1)
+            # A table of each; where the edge moves with the criterion, a row that says so.
+            import stability
+            lines = stability.flight_table({"s": read}).splitlines()
+            self.assertEqual(len(lines), 4)
+            self.assertIn("(2400 periods)", lines[3])
+            for row in read.rows:
+                if row["growth"] == 1000 and row["method"] == "leapfrog":
+                    row["stable"] = math.nan
+            self.assertIn("| s | leapfrog | flight | 1000 |", stability.criterion_text({"s": read}))
             axes = edge.plane(read, {2: (16000.0, 1e-6)}).axes[0]
             self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
             (Path(folder) / "edge.csv").write_text("method,E\nleapfrog,ten\n")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "verify/bounce_course.hpp"
 #include "verify/bracket.hpp"
 #include "verify/energy_judge.hpp"
+#include "verify/spectrum.hpp"
 #include "verify/stability_edge.hpp"
 #include "verify/stability_limit.hpp"
 #include "verify/vibration.hpp"
@@ -126,22 +128,12 @@ TEST(StabilityEdge, NaNIsNeverStable) {
   EXPECT_EQ(run_trials(problems, steps, 4, any), (std::vector<bool>{true, false, false}));
 }
 
-// The limit of a method is where its first unstable step lies. Those of Blanes and Moan have a
-// narrow window of such steps there, in which a vibration grows by e in 400 steps and more, and are
-// stable again beyond: a flight of 300 periods passes it. What is measured is the first window that
-// a bracket of 1 % cannot pass.
-double first_wide_window(const Method& method) {
-  const auto unstable = [&](double z) { return !(half_trace(method.stages, z) <= 1.0); };
-  double z = stability_limit(method) * (1.0 + 1e-6);
-  while (!(unstable(z) && unstable(z * std::sqrt(edge_ratio)) && unstable(z * edge_ratio))) {
-    z *= 1.0001;
-  }
-  return z;
-}
-
 // The bound: a bracket of 1 % whose stable end may lie that far below, the rounding of starts to
 // four decimals, which strains bonds by 2e-4 (0.2 % of a frequency), and in all less than the 3 %
 // that is asked.
+constexpr double least_of_predicted = 0.985;
+constexpr double most_of_predicted = 1.005;
+
 TEST(StabilityEdge, PredictedAndMeasuredAgreeInFlight) {
   std::vector<EdgeCase> cases;
   for (const Method& method : methods()) {
@@ -151,17 +143,71 @@ TEST(StabilityEdge, PredictedAndMeasuredAgreeInFlight) {
       cases.push_back(cases.back());
       cases.back().sought = Sought::elasticity;
     }
-    const double beyond = first_wide_window(method) / stability_limit(method);
-    const std::vector<Edge> edges = measured(cases);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const Edge& edge = edges[i];
+    for (const Edge& edge : measured(cases)) {
       ASSERT_EQ(edge.outcome, EdgeOutcome::found);
       EXPECT_LE(edge.unstable, edge_ratio * edge.stable);
-      const bool step = cases[i].sought == Sought::step;
-      const double predicted = edge.predicted * (step ? beyond : beyond * beyond);
-      EXPECT_GE(edge.stable / predicted, 0.985) << method.name;
-      EXPECT_LE(edge.stable / predicted, 1.005) << method.name;
+      EXPECT_GE(edge.stable / edge.predicted, least_of_predicted) << method.name;
+      EXPECT_LE(edge.stable / edge.predicted, most_of_predicted) << method.name;
+      EXPECT_LE(edge.strict, edge.predicted) << method.name;
     }
+  }
+}
+
+// Two methods have a first unstable window so narrow that the flights above pass it. The others
+// have nothing between the two predictions.
+bool passes_first_window(const Method& method) {
+  return method.name == "blanes-moan-4" || method.name == "blanes-moan-6";
+}
+
+// All the same it is there: a ball at rest, disturbed, is lost in it by a flight as long as the
+// window's growth asks for, and stays where it is just below. Rounded starts would blur so narrow a
+// window, so this one is not.
+TEST(StabilityEdge, InTheFirstWindowABallIsLost) {
+  for (const Method& method : methods()) {
+    Scene scene = paper_scene(16000.0, std::string(method.name));
+    scene.constants = Constants::double_precision;
+    scene.ball.rounding = Rounding::none;
+    scene.law.rest = Rest::geometry;
+    scene.gravity = {};
+    scene.walls.clear();
+    const double periods =
+        std::max(100.0, periods_for_strict_limit(scene, {}, flight_case(1.0).criterion.growth));
+    EXPECT_EQ(periods > 300.0, passes_first_window(method)) << method.name;
+    Problem problem = make_problem(scene);
+    const double omega = fastest_vibration(problem, problem.initial).value().omega;
+    disturb(problem.initial, edge_disturbance * shortest_rest(problem));
+    const UnstableWindow window = unstable_windows(method.stages).front();
+    std::vector<Problem> problems(2, problem);
+    std::vector<std::int64_t> steps;
+    // In a wide window no more than a little beyond its start.
+    const std::vector<double> z{0.999 * window.from, std::min(window.worst, 1.02 * window.from)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      problems[i].step = z[i] / omega;
+      steps.push_back(static_cast<std::int64_t>(periods * 2.0 * std::numbers::pi / z[i]));
+    }
+    const EnergyJudge judge(problem, flight_case(1.0).criterion.growth);
+    const auto good = run_trials(problems, steps, 500, [&](std::size_t, const State& state) {
+      return judge.is_good(state);
+    });
+    EXPECT_EQ(good, (std::vector<bool>{true, false})) << method.name;
+  }
+}
+
+// And the search for an edge finds it, climbing, where its criterion says that it should.
+TEST(StabilityEdge, TheStrictLimitIsMeasuredByLongFlights) {
+  EdgeCase edge = flight_case(16000.0, "blanes-moan-4");
+  std::vector<EdgeCase> cases{edge};
+  edge.criterion.periods = 1.1 * periods_for_strict_limit(edge.scene, {}, edge.criterion.growth);
+  cases.push_back(edge);
+  edge.sought = Sought::elasticity;
+  cases.push_back(edge);
+  const std::vector<Edge> edges = measured(cases);
+  EXPECT_GT(edges[0].stable, 1.1 * edges[0].strict);
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    ASSERT_EQ(edges[i].outcome, EdgeOutcome::found);
+    EXPECT_GE(edges[i].stable / edges[i].strict, least_of_predicted) << i;
+    EXPECT_LE(edges[i].stable / edges[i].strict, most_of_predicted) << i;
+    EXPECT_NEAR(edges[i].predicted / edges[i].strict, 1.0, 0.002) << i;
   }
 }
 
@@ -172,16 +218,26 @@ TEST(StabilityEdge, GoesWithOneOverTheRootOfE) {
   EXPECT_EQ(edges[0].runs, edges[1].runs);
 }
 
+// But where ten times as long flights show a narrow window, which
+// TheStrictLimitIsMeasuredByLongFlights looks at.
 TEST(StabilityEdge, DoesNotDependOnTheCriterionInFlight) {
-  std::vector<EdgeCase> cases{flight_case(16000.0)};
-  for (const double factor : {0.1, 10.0}) {
-    cases.push_back(flight_case(16000.0));
-    cases.back().criterion.growth *= factor;
-    cases.push_back(flight_case(16000.0));
-    cases.back().criterion.periods *= factor;
+  for (const Method& method : methods()) {
+    std::vector<EdgeCase> cases{flight_case(16000.0, std::string(method.name))};
+    const auto add = [&](double growth, double periods) {
+      cases.push_back(cases.front());
+      cases.back().criterion.growth *= growth;
+      cases.back().criterion.periods *= periods;
+    };
+    add(0.1, 1.0);
+    add(10.0, 1.0);
+    add(1.0, 0.1);
+    if (method.name != "blanes-moan-4") add(1.0, 10.0);
+    const std::vector<Edge> edges = measured(cases);
+    for (const Edge& edge : edges) {
+      ASSERT_EQ(edge.outcome, EdgeOutcome::found);
+      EXPECT_NEAR(edge.stable / edges[0].stable, 1.0, 0.02) << method.name;
+    }
   }
-  const std::vector<Edge> edges = measured(cases);
-  for (const Edge& edge : edges) EXPECT_NEAR(edge.stable / edges[0].stable, 1.0, 0.02);
 }
 
 // A vibration of a hundredth of a bond is lost, if slowly, from where it takes three steps a

@@ -136,6 +136,50 @@ TEST(StabilityLimit, IsWhereAnOscillatorBeginsToGrow) {
   }
 }
 
+// Windows are disjoint, in order, begin where growth does and hold their worst place.
+TEST(StabilityLimit, UnstableWindowsAndTheirGrowth) {
+  const auto& leapfrog = find_method("leapfrog")->stages;
+  const auto one = unstable_windows(leapfrog);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NEAR(one[0].from, 2.0, 1e-12);
+  EXPECT_EQ(growth_per_period(leapfrog, 1.999), 0.0);
+  // m = z^2/2 - 1; e^(acosh m) a step, squared, 2 pi / z steps.
+  EXPECT_NEAR(growth_per_period(leapfrog, 2.5),
+              2.0 * std::acosh(2.5 * 2.5 / 2 - 1.0) * 2.0 * std::numbers::pi / 2.5, 1e-12);
+  EXPECT_EQ(growth_per_period(Table{{nan, 1.0}}, 1.0), infinity);
+  for (const Method& method : methods()) {
+    const auto windows = unstable_windows(method.stages);
+    ASSERT_FALSE(windows.empty()) << method.name;
+    EXPECT_EQ(windows[0].from, stability_limit(method)) << method.name;
+    double last = 0.0;
+    for (const UnstableWindow& window : windows) {
+      EXPECT_LT(last, window.from) << method.name;
+      EXPECT_LT(window.from, window.worst) << method.name;
+      EXPECT_LE(window.worst, window.to) << method.name;
+      EXPECT_EQ(window.growth, growth_per_period(method.stages, window.worst)) << method.name;
+      EXPECT_EQ(growth_per_period(method.stages, window.from * (1.0 - 1e-9)), 0.0) << method.name;
+      const auto half = first_growing(method.stages, window, 0.5 * window.growth);
+      ASSERT_TRUE(half.has_value()) << method.name;
+      EXPECT_NEAR(growth_per_period(method.stages, *half) / window.growth, 0.5, 1e-6);
+      EXPECT_FALSE(first_growing(method.stages, window, window.growth).has_value());
+      last = window.to;
+    }
+  }
+}
+
+// The oscillator itself grows so: its energy by growth_per_period a period, at the worst place of
+// the first window. From (1, 0) at least a tenth of it is in what grows (as below).
+TEST(StabilityLimit, GrowthIsThatOfAnOscillator) {
+  for (const Method& method : methods()) {
+    const UnstableWindow window = unstable_windows(method.stages).front();
+    const double z = std::min(window.worst, 1.02 * window.from);
+    const double a_step = growth_per_period(method.stages, z) * z / (4.0 * std::numbers::pi);
+    const int n = static_cast<int>(20.0 / a_step) + 1;
+    const double first = swing(table_of(method), z, n), second = swing(table_of(method), z, 2 * n);
+    EXPECT_NEAR(std::log(second / first) / (n * a_step), 1.0, 1e-3) << method.name;
+  }
+}
+
 TEST(StabilityLimit, OfTablesThatAreNone) {
   EXPECT_EQ(stability_limit(Table{{nan, 1.0}}), 0.0);
   EXPECT_EQ(stability_limit(Table{{1.0, infinity}}), 0.0);
