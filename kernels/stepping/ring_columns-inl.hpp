@@ -108,33 +108,24 @@ HWY_INLINE void reciprocals_of(const V* r2, V* u) {
   }
 }
 
-/// What of a number does not fit its high part and is carried along in a low part; bonds take the
-/// high parts alone, or the low ones too for their lengths.
-template <bool positions, bool velocities, bool in_lengths>
-struct LowParts {
-  static constexpr bool of_positions = positions;
-  static constexpr bool of_velocities = velocities;
-  static constexpr bool of_lengths = in_lengths;
-};
-using NoLowParts = LowParts<false, false, false>;
-
-/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings. Low:
-/// LowParts. The form of the walls is a parameter of the sweeps: all forms move the same columns.
-template <class D, class Law, int R, class Low = NoLowParts>
+/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings. low:
+/// positions and velocities have low parts (ring_precision-inl.hpp). The form of the walls is a
+/// parameter of the sweeps: all forms move the same columns.
+template <class D, class Law, int R, bool low = false>
 class RingColumns {
  public:
   using Tag = D;
   using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
-  using LowOf = Low;
+  static constexpr bool has_low = low;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
   static constexpr int rings = R;
   static constexpr size_t row = size_t{R} * L;         // numbers of x of a column
   static constexpr size_t positions = 2 * row;         // numbers of x and y
   static constexpr size_t low_positions = 4 * row;     // behind x, y, vx and vy
-  static constexpr size_t low_velocities = low_positions + (Low::of_positions ? 2 * row : 0);
-  static constexpr size_t block = low_velocities + (Low::of_velocities ? 2 * row : 0);
+  static constexpr size_t low_velocities = 6 * row;
+  static constexpr size_t block = (low ? 8 : 4) * row;
   static constexpr int bonds_a_column = 3 * R - 2;
   static constexpr size_t terms = size_t{bonds_a_column} * L;  // of a column's reciprocals
 
@@ -297,7 +288,7 @@ class RingColumns {
 
  private:
   // Where what a particle's sums begin from stands.
-  static constexpr size_t summed = Low::of_velocities ? low_velocities : positions;
+  static constexpr size_t summed = low ? low_velocities : positions;
 
   // Numbers of the bonds of a column.
   static constexpr int along(int ring) { return ring; }
@@ -315,7 +306,7 @@ class RingColumns {
       const Column& other = p.next ? next : here;
       V dx = hn::Sub(here.x[p.from], other.x[p.to]);
       V dy = hn::Sub(here.y[p.from], other.y[p.to]);
-      if constexpr (Low::of_lengths) {
+      if constexpr (low) {
         const T *from = at + low_positions, *to = p.next ? from + block : from;
         dx = hn::Add(dx, hn::Sub(x_of(from, p.from), x_of(to, p.to)));
         dy = hn::Add(dy, hn::Sub(y_of(from, p.from), y_of(to, p.to)));
@@ -398,29 +389,24 @@ class RingColumns {
   // One coordinate of a particle: `at` its place, `sum` its velocity, or the kick where that has a
   // low part. Returns the coordinate.
   static HWY_INLINE V move(V drift, V sum, T* at) {
-    V v = sum, moved;
-    if constexpr (Low::of_velocities) {
+    V v = sum, x = hn::Load(d, at);
+    if constexpr (low) {
       v = add(hn::Load(d, at + positions), sum, at + low_velocities);
-      moved = hn::Mul(drift, hn::Load(d, at + low_velocities));
-    }
-    hn::Store(v, d, at + positions);
-    V x = hn::Load(d, at);
-    if constexpr (Low::of_positions) {
-      V low = hn::Load(d, at + low_positions);
-      if constexpr (Low::of_velocities) low = hn::Add(low, moved);
-      x = add(x, hn::MulAdd(drift, v, low), at + low_positions);
+      const V low_v = hn::Load(d, at + low_velocities), low_x = hn::Load(d, at + low_positions);
+      x = add(x, hn::MulAdd(drift, v, hn::MulAdd(drift, low_v, low_x)), at + low_positions);
     } else {
       x = hn::MulAdd(drift, v, x);
     }
+    hn::Store(v, d, at + positions);
     hn::Store(x, d, at);
     return x;
   }
 
-  // high + more; what is lost in it goes to `low`. That is exact where |more| <= |high|; else it is
+  // high + more; what is lost in it goes to `lost`. That is exact where |more| <= |high|; else it is
   // off by an ULP of `more`, as `more` itself is.
-  static HWY_INLINE V add(V high, V more, T* low) {
+  static HWY_INLINE V add(V high, V more, T* lost) {
     const V sum = hn::Add(high, more);
-    hn::Store(hn::Sub(more, hn::Sub(sum, high)), d, low);
+    hn::Store(hn::Sub(more, hn::Sub(sum, high)), d, lost);
     return sum;
   }
 
@@ -431,7 +417,7 @@ class RingColumns {
       for (int r = 0; r < R; ++r) {
         if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
         T* x = at + static_cast<size_t>(r) * L;
-        if constexpr (Low::of_positions) {
+        if constexpr (low) {
           mirror_with_low(c.drift, walls.walls, x);
         } else {
           walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
@@ -451,28 +437,26 @@ class RingColumns {
       const auto met = hn::And(hn::Le(distance, zero), hn::Ge(drift, zero));
       const V back = wall.contact == Contact::resolved ? w.beta : hn::Set(d, T{-1});
       turn_low(met, w, one_of<V>(), back, x + low_positions);
-      if constexpr (Low::of_velocities) {
-        T* const low = x + low_velocities;
-        turn_low(met, w, w.alpha, w.beta, low);
-        for (const size_t part : {size_t{0}, row}) {
-          const auto stopped = hn::And(met, hn::Eq(hn::Load(d, x + positions + part), zero));
-          hn::Store(hn::IfThenElse(stopped, zero, hn::Load(d, low + part)), d, low + part);
-        }
+      T* const slow = x + low_velocities;
+      turn_low(met, w, w.alpha, w.beta, slow);
+      for (const size_t part : {size_t{0}, row}) {
+        const auto stopped = hn::And(met, hn::Eq(hn::Load(d, x + positions + part), zero));
+        hn::Store(hn::IfThenElse(stopped, zero, hn::Load(d, slow + part)), d, slow + part);
       }
     }
   }
 
   // In the lanes of `met`: the part along the wall times `along`, the part across it times `back`.
   template <class Mask>
-  static HWY_INLINE void turn_low(Mask met, const WallVectors<V>& w, V along, V back, T* low) {
-    const V lx = hn::Load(d, low), ly = hn::Load(d, low + row);
+  static HWY_INLINE void turn_low(Mask met, const WallVectors<V>& w, V along, V back, T* at) {
+    const V lx = hn::Load(d, at), ly = hn::Load(d, at + row);
     const V across = hn::MulAdd(w.nx, lx, hn::Mul(w.ny, ly));
     const V tx = hn::NegMulAdd(across, w.nx, lx), ty = hn::NegMulAdd(across, w.ny, ly);
     const V after = hn::Mul(back, across);
     const V new_x = hn::MulAdd(along, tx, hn::Mul(after, w.nx));
     const V new_y = hn::MulAdd(along, ty, hn::Mul(after, w.ny));
-    hn::Store(hn::IfThenElse(met, new_x, lx), d, low);
-    hn::Store(hn::IfThenElse(met, new_y, ly), d, low + row);
+    hn::Store(hn::IfThenElse(met, new_x, lx), d, at);
+    hn::Store(hn::IfThenElse(met, new_y, ly), d, at + row);
   }
 
   RingShape shape_;

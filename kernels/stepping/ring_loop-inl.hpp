@@ -84,7 +84,7 @@ class RingLoop {
  private:
   HWY_INLINE void fill_ghost() {
     Columns::store(turn(Columns::load(column(0)), 1), column(size_));
-    if constexpr (Columns::LowOf::of_lengths) {
+    if constexpr (Columns::has_low) {
       constexpr size_t low = Columns::low_positions;
       Columns::store(turn(Columns::load(column(0) + low), 1), column(size_) + low);
     }

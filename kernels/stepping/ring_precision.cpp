@@ -4,8 +4,6 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <cstdlib>
-
 #include "kernels/stepping/ring_precision.hpp"
 #include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/ring_precision-inl.hpp"
@@ -18,24 +16,10 @@ std::unique_ptr<Stepper> make_precision(const Problem& problem, const RingShape&
                                         const Plan& plan) {
   using Doubles = hn::ScalableTag<double>;
   using Floats = hn::CappedTag<float, 8>;
-  static const char* e = std::getenv("PREC_V");
-  const int v = e ? e[0] - '0' : 0;
-  const bool f = plan.free_flight;
-  if (problem.precision == Precision::compensated) {
-    switch (v) {
-      case 0: return std::make_unique<PrecisionStepper<Doubles, LowParts<true, false, false>>>(problem, shape, f);
-      case 1: return std::make_unique<PrecisionStepper<Doubles, LowParts<true, false, true>>>(problem, shape, f);
-      case 2: return std::make_unique<PrecisionStepper<Doubles, LowParts<true, true, false>>>(problem, shape, f);
-      case 3: return std::make_unique<PrecisionStepper<Doubles, LowParts<true, true, true>>>(problem, shape, f);
-    }
+  if (problem.precision == Precision::single_precision) {
+    return std::make_unique<PrecisionStepper<Floats>>(problem, shape, plan.free_flight);
   }
-    switch (v) {
-      case 0: return std::make_unique<PrecisionStepper<Floats, LowParts<true, false, false>>>(problem, shape, f);
-      case 1: return std::make_unique<PrecisionStepper<Floats, LowParts<true, false, true>>>(problem, shape, f);
-      case 2: return std::make_unique<PrecisionStepper<Floats, LowParts<true, true, false>>>(problem, shape, f);
-      case 3: return std::make_unique<PrecisionStepper<Floats, LowParts<true, true, true>>>(problem, shape, f);
-    }
-  return nullptr;
+  return std::make_unique<PrecisionStepper<Doubles>>(problem, shape, plan.free_flight);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
