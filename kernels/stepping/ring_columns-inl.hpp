@@ -108,9 +108,9 @@ HWY_INLINE void reciprocals_of(const V* r2, V* u) {
   }
 }
 
-/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings. low:
-/// positions and velocities have low parts (ring_precision-inl.hpp). The form of the walls is a
-/// parameter of the sweeps: all forms move the same columns.
+/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings.
+/// low: positions and velocities have low parts (ring_precision-inl.hpp). The form of the walls is
+/// a parameter of the sweeps: all forms move the same columns.
 template <class D, class Law, int R, bool low = false>
 class RingColumns {
  public:
@@ -121,9 +121,9 @@ class RingColumns {
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
   static constexpr int rings = R;
-  static constexpr size_t row = size_t{R} * L;         // numbers of x of a column
-  static constexpr size_t positions = 2 * row;         // numbers of x and y
-  static constexpr size_t low_positions = 4 * row;     // behind x, y, vx and vy
+  static constexpr size_t row = size_t{R} * L;      // numbers of x of a column
+  static constexpr size_t positions = 2 * row;      // numbers of x and y
+  static constexpr size_t low_positions = 4 * row;  // behind x, y, vx and vy
   static constexpr size_t low_velocities = 6 * row;
   static constexpr size_t block = (low ? 8 : 4) * row;
   static constexpr int bonds_a_column = 3 * R - 2;
@@ -255,8 +255,8 @@ class RingColumns {
   /// goes with those of the column behind the last. `nearest` becomes the least distance from a
   /// wall, NaN apart.
   template <Rest rest, class Walls>
-  HWY_INLINE void sums(const Constants& c, const Walls& walls, T* at, size_t columns,
-                       const T* u, Column& left, V& nearest) const {
+  HWY_INLINE void sums(const Constants& c, const Walls& walls, T* at, size_t columns, const T* u,
+                       Column& left, V& nearest) const {
     for (; columns > 0; --columns, at += block, u += terms) {
       Column from_velocity, on_next;
       ring_sums<0, rest>(c, walls, at, u, from_velocity, left, on_next, nearest);
@@ -266,8 +266,8 @@ class RingColumns {
 
   /// Kick, drift and wall of a column whose sums from the velocity on were kept.
   template <class Walls>
-  HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, T* at,
-                              const Column& left, V& nearest) const {
+  HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, T* at, const Column& left,
+                              V& nearest) const {
     const Column kept = load(at + summed);
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) finish(c, walls, at, r, kept, left, nearest);
   }
@@ -349,8 +349,8 @@ class RingColumns {
   }
 
   template <Rest rest, class Walls>
-  HWY_INLINE void end_ring(const Constants& c, const Walls& walls, T* at, int r,
-                           const Column& sums, const Column& left, V& nearest) const {
+  HWY_INLINE void end_ring(const Constants& c, const Walls& walls, T* at, int r, const Column& sums,
+                           const Column& left, V& nearest) const {
     if constexpr (rest == Rest::finish) {
       finish(c, walls, at, r, sums, left, nearest);
     } else if constexpr (rest == Rest::keep) {
@@ -363,8 +363,8 @@ class RingColumns {
   // sums are alive at a time. Along, same, diagonal of each pair of rings: the order of the numbers
   // for each particle.
   template <int ring, Rest rest, class Walls>
-  HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, T* at, const T* u,
-                            Column& sums, const Column& left, Column& on_next, V& nearest) const {
+  HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, T* at, const T* u, Column& sums,
+                            const Column& left, Column& on_next, V& nearest) const {
     if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
     if constexpr (ring + 1 < R) {
       start_ring<ring + 1>(c, at, u, sums, on_next);
@@ -402,8 +402,8 @@ class RingColumns {
     return x;
   }
 
-  // high + more; what is lost in it goes to `lost`. That is exact where |more| <= |high|; else it is
-  // off by an ULP of `more`, as `more` itself is.
+  // high + more; what is lost in it goes to `lost`. That is exact where |more| <= |high|; else it
+  // is off by an ULP of `more`, as `more` itself is.
   static HWY_INLINE V add(V high, V more, T* lost) {
     const V sum = hn::Add(high, more);
     hn::Store(hn::Sub(more, hn::Sub(sum, high)), d, lost);
@@ -426,8 +426,8 @@ class RingColumns {
     }
   }
 
-  // The rules are linear in position and velocity: a low part is turned by the wall as the high one.
-  // Where a particle is stopped, nothing is left of it.
+  // The rules are linear in position and velocity: a low part is turned by the wall as the high
+  // one. Where a particle is stopped, nothing is left of it.
   static HWY_NOINLINE void mirror_with_low(V drift, const std::vector<Wall>& walls, T* x) {
     const V zero = hn::Zero(d);
     for (const Wall& wall : walls) {

@@ -94,9 +94,8 @@ class PrecisionStepper final : public StagedStepper {
 
   [[nodiscard]] State read_low() const override {
     State all(columns_ * L * size_t{Columns::rings});
-    visit_places(loop_, all, [](double& value, const T&, const T& low) {
-      value = static_cast<double>(low);
-    });
+    visit_places(loop_, all,
+                 [](double& value, const T&, const T& low) { value = static_cast<double>(low); });
     return all;
   }
   // In single precision write() has split a rounded sum: that is as good as the high part once the

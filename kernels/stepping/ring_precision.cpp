@@ -4,9 +4,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "kernels/stepping/ring_precision.hpp"
 #include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/ring_precision-inl.hpp"
+#include "kernels/stepping/ring_precision.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {

@@ -164,7 +164,8 @@ TEST_P(each_precision, goes_on_from_a_snapshot_with_the_same_bits) {
     Scene scene = touching(GetParam());
     scene.time.method = method;
     const Problem problem = make_problem(scene);
-    const auto whole = stepper_of(problem), first = stepper_of(problem), second = stepper_of(problem);
+    const auto whole = stepper_of(problem), first = stepper_of(problem),
+               second = stepper_of(problem);
     whole->advance(6000);
     first->advance(3001);
     second->restore(first->save());
@@ -188,8 +189,8 @@ TEST_P(each_precision, keeps_a_nan_where_it_is) {
 
 INSTANTIATE_TEST_SUITE_P(all, each_precision,
                          testing::Values(Precision::compensated, Precision::single_precision),
-                         [](const auto& info) {
-                           return info.param == Precision::compensated ? "compensated" : "single";
+                         [](const auto& of) {
+                           return of.param == Precision::compensated ? "compensated" : "single";
                          });
 
 // Beside plain double, after some thousand steps on walls. Roundings part by an ULP a step and
@@ -200,7 +201,8 @@ TEST(precision, compensated_meets_walls_as_double_does) {
     for (const bool wedge : {false, true}) {
       const auto scene_of = [&](Precision precision) {
         Scene scene = touching(precision);
-        if (wedge) scene.walls = {Wall{{h, h}, -2.051, 0.3, -0.7}, Wall{{0.0, 1.0}, 0.0, 1.0, -1.0}};
+        if (wedge)
+          scene.walls = {Wall{{h, h}, -2.051, 0.3, -0.7}, Wall{{0.0, 1.0}, 0.0, 1.0, -1.0}};
         for (Wall& wall : scene.walls) wall.contact = contact;
         return scene;
       };
@@ -234,7 +236,8 @@ TEST(precision, only_ring_has_others_than_double) {
     }
     EXPECT_NE(refusal_of(flying(precision), {"ring", "auto", 2}).find("one thread"),
               std::string::npos);
-    EXPECT_THROW(Ensemble({make_problem(flying(precision))}), PlanError);
+    const std::vector<Problem> one{make_problem(flying(precision))};
+    EXPECT_THROW(Ensemble{one}, PlanError);
     Scene other_law = flying(precision);
     other_law.law.p = 7.0;
     other_law.law.q = 13.0;
