@@ -26,6 +26,7 @@ constexpr double papers_step = 1e-6;  // s
 std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& initial) {
   scene.time.method = "listing";
   scene.time.step = papers_step;
+  scene.time.precision = Precision::double_precision;
   for (Wall& wall : scene.walls) wall.contact = Contact::listing;
   const Problem problem = make_problem(scene, initial);
   const std::vector<KernelEntry> entries = kernels_with_oracle(scene);

@@ -90,8 +90,8 @@ std::string write(const std::optional<double>& x) { return x ? write(*x) : ""; }
 std::string allowed_for(const std::optional<double>&) { return number_text; }
 
 // The words of each choice.
-template <class Choice>
-using Words = std::array<std::pair<const char*, Choice>, 2>;
+template <class Choice, std::size_t count = 2>
+using Words = std::array<std::pair<const char*, Choice>, count>;
 Words<Constants> words_of(Constants) {
   return {{{"single", Constants::single_precision}, {"double", Constants::double_precision}}};
 }
@@ -103,6 +103,11 @@ Words<BallKind> words_of(BallKind) {
 }
 Words<Contact> words_of(Contact) {
   return {{{"listing", Contact::listing}, {"resolved", Contact::resolved}}};
+}
+Words<Precision, 3> words_of(Precision) {
+  return {{{"double", Precision::double_precision},
+           {"compensated", Precision::compensated},
+           {"single", Precision::single_precision}}};
 }
 Words<Rest> words_of(Rest) { return {{{"listing", Rest::listing}, {"geometry", Rest::geometry}}}; }
 
@@ -126,8 +131,13 @@ requires std::is_enum_v<Choice> std::string write(Choice value) {
 }
 template <class Choice>
 requires std::is_enum_v<Choice> std::string allowed_for(Choice value) {
+  std::string text;
   const auto words = words_of(value);
-  return fmt::format("\"{}\" or \"{}\"", words[0].first, words[1].first);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += i == 0 ? "" : i + 1 < words.size() ? ", " : " or ";
+    text += fmt::format("\"{}\"", words[i].first);
+  }
+  return text;
 }
 
 // A key for what `member` refers to in its owner.
@@ -204,6 +214,9 @@ const std::vector<Key<Scene>>& scene_keys() {
           "time", "end", "s", [](Scene & s) -> auto& { return s.time.end; }),
       scene_key(
           "time", "method", "", [](Scene & s) -> auto& { return s.time.method; }),
+      scene_key(
+          "time", "precision", "of positions and velocities; compensated: double with low parts",
+          [](Scene & s) -> auto& { return s.time.precision; }),
       scene_key(
           "output", "frames_every", "s", [](Scene & s) -> auto& { return s.output.frames_every; }),
       scene_key(

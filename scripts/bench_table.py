@@ -34,13 +34,15 @@ def rows(runs):
         name, _, rest = run["run_name"].partition("/threads:")
         threads = rest.split("/")[0]
         limit = run.get("part_of_port_limit")
-        name = name.partition(", ")[0]
+        name, *more = name.split(", ")
+        precision = next((word for word in more if word in ("compensated", "single")), "double")
         scene = run.get("label", "")
         if run.get("error_occurred"):
-            yield [name, scene, threads, "ERROR: " + run["error_message"], *[""] * 7]
+            yield [name, precision, scene, threads, "ERROR: " + run["error_message"], *[""] * 7]
             continue
         yield [
             name,
+            precision,
             scene,
             threads,
             cell(run.get("ns_per_step"), ".0f"),
@@ -61,16 +63,16 @@ def main():
         data = json.load(file)
     context = data["context"]
     repetitions = max((run.get("repetitions", 1) for run in data["benchmarks"]), default=1)
-    print("# Throughput, double precision\n")
+    print("# Throughput\n")
     print(f"Per step of one ball; medians of {repetitions} repetitions, all rows' in random order, of 7 turns each. × is the")
     print("ratio to the scalar oracle compiled with the flags named, made turn by turn; times swing with the clock.")
     print("Port limit: the part reached of the multiply-add rate measured in the same turn, for kernels whose")
     print("operations are counted; particle-steps and bonds are the whole ball's, also where half is stepped.")
     print("Hand-shake: from one core to the other and back, for threads that share a ball, in the same turns.")
     print("The last column is the largest difference from the oracle's positions after 1000 steps.\n")
-    print("| row | scene | threads | ns/step | 10^6 particle-steps/s | 10^6 bonds/s | port limit | hand-shake, ns | × oracle -O3 | "
+    print("| row | precision | scene | threads | ns/step | 10^6 particle-steps/s | 10^6 bonds/s | port limit | hand-shake, ns | × oracle -O3 | "
           "× oracle -Ofast | difference, cm |")
-    print("|" + " --- |" * 11)
+    print("|" + " --- |" * 12)
     for row in rows(data["benchmarks"]):
         print("| " + " | ".join(row) + " |")
     print(f"\nMade by `scripts/bench.sh` at commit {context['commit']}, {context['date']}, on "

@@ -314,7 +314,7 @@ void BookingStepper::look_behind_walls() {
 
 // with_walls_ has taken the step; it is taken once more to see what happened in it.
 void BookingStepper::step_by_stages(const Snapshot& start) {
-  Snapshot now{start.state, false, 0};
+  Snapshot now{start.state, false, 0, start.low};
   for (const std::size_t at : start.stage_held ? joined_ : fresh_) {
     StageKernels& kernels = *stages_[at];
     for (Stepper* stepper : {kernels.without.get(), kernels.with_walls.get()}) {
@@ -322,7 +322,9 @@ void BookingStepper::step_by_stages(const Snapshot& start) {
       stepper->advance(1);
     }
     const State before = kernels.without->save().state;
-    now.state = kernels.with_walls->save().state;
+    now = kernels.with_walls->save();
+    now.stage_held = false;
+    now.step = 0;
     const double drift = kernels.stage[0].drift * problem_.step;
     if (!same_bits(before, now.state)) book(drift, before, now.state, done_);
   }

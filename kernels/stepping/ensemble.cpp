@@ -166,6 +166,10 @@ BatchForm form_of(std::span<const Problem> problems, VectorTarget vector) {
   if (problems.empty()) throw PlanError("an ensemble needs one scene at least");
   const RingForm ring = find_ring_form(problems.front());
   if (!ring.refusal.empty()) throw PlanError("no ensemble of this scene: " + ring.refusal);
+  for (const Problem& problem : problems) {
+    if (problem.precision == Precision::double_precision) continue;
+    throw PlanError("an ensemble computes in double precision only (time.precision)");
+  }
   BatchForm form{ring.shape, problems.front().law};
   form.vector = vector;
   for (std::size_t i = 0; i < problems.size(); ++i) {

@@ -32,6 +32,9 @@ const KernelEntry& find_entry(const std::string& name, std::span<const KernelEnt
 std::string prepare(const KernelEntry& entry, const Problem& problem, const PlanRequest& request,
                     Plan& plan) {
   plan.kernel = entry.name;
+  if (problem.precision != Precision::double_precision && !entry.other_precisions) {
+    return "it computes in double precision only, without low parts (time.precision)";
+  }
   const LawForm law = law_form(problem.law);
   const WallForm walls = wall_form(problem);
   plan.law = describe(law);

@@ -31,7 +31,7 @@ struct PlanRequest {
 struct Plan {
   std::string kernel;
   VectorTarget vector = VectorTarget::none;
-  int lanes = 1;  ///< doubles computed side by side
+  int lanes = 1;  ///< numbers computed side by side
   int threads = 1;
   /// Multiplications and multiply-adds of whole vectors a step takes at least; 0: not counted.
   double multiplications = 0.0;
@@ -63,6 +63,8 @@ struct KernelEntry {
   /// Fills lanes, threads, law, walls and left_out of the plan, or returns why it cannot run this.
   std::function<std::string(const Problem&, const PlanRequest&, Plan&)> prepare;
   std::function<std::unique_ptr<Stepper>(const Problem&, const Plan&)> make;
+  /// Whether prepare() looks at the precision; else only double precision comes to it.
+  bool other_precisions = false;
 };
 
 /// From here on a second thread saves more than meeting it costs, whatever the kernel and however

@@ -7,6 +7,7 @@
 #include "kernels/stepping/ring.hpp"
 #include "kernels/stepping/ring_forms-inl.hpp"
 #include "kernels/stepping/ring_forms.hpp"
+#include "kernels/stepping/ring_precision.hpp"
 #include "kernels/stepping/ring_stepper-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,6 +39,9 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
   const RingForm form = find_ring_form(problem);
   if (!form.refusal.empty()) return form.refusal;
   const RingShape& shape = form.shape;
+  if (problem.precision != Precision::double_precision) {
+    return prepare_ring_precision(problem, shape, request, plan);
+  }
   plan.lanes = ring_lanes(shape.per_ring, plan.vector);
   if (plan.lanes == 0) {
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
@@ -65,6 +69,9 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
   const auto shape = find_rings(problem.bonds);
   if (!shape) return nullptr;
+  if (problem.precision != Precision::double_precision) {
+    return make_ring_precision(problem, *shape, plan);
+  }
   return plan.lanes == 8 ? N_AVX3::make_ring(problem, *shape, plan)
                          : N_AVX2::make_ring(problem, *shape, plan);
 }
@@ -77,7 +84,8 @@ KernelEntry ring_entry() {
           .automatic = true,
           .memory = {.a_particle = 32.0, .an_entry = 0.0},
           .prepare = prepare_ring,
-          .make = make};
+          .make = make,
+          .other_precisions = true};
 }
 
 }  // namespace bounce

@@ -77,13 +77,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int most_in_group = 4;  // bonds that share a division
 
+template <class V>
+HWY_INLINE V one_of() {
+  return hn::Set(hn::DFromV<V>(), hn::TFromV<V>{1});
+}
+
 /// Reciprocals of N values by one division.
 template <int N, class V>
 HWY_INLINE void reciprocals_of(const V* r2, V* u) {
   static_assert(N <= most_in_group);
   if constexpr (N == 4) {
     const V ab = hn::Mul(r2[0], r2[1]), cd = hn::Mul(r2[2], r2[3]);
-    const V one_over = hn::Div(hn::Set(hn::DFromV<V>(), 1.0), hn::Mul(ab, cd));
+    const V one_over = hn::Div(one_of<V>(), hn::Mul(ab, cd));
     const V over_ab = hn::Mul(one_over, cd), over_cd = hn::Mul(one_over, ab);
     u[0] = hn::Mul(over_ab, r2[1]);
     u[1] = hn::Mul(over_ab, r2[0]);
@@ -91,35 +96,40 @@ HWY_INLINE void reciprocals_of(const V* r2, V* u) {
     u[3] = hn::Mul(over_cd, r2[2]);
   } else if constexpr (N == 3) {
     const V ab = hn::Mul(r2[0], r2[1]);
-    const V one_over = hn::Div(hn::Set(hn::DFromV<V>(), 1.0), hn::Mul(ab, r2[2]));
+    const V one_over = hn::Div(one_of<V>(), hn::Mul(ab, r2[2]));
     const V over_ab = hn::Mul(one_over, r2[2]);
     u[0] = hn::Mul(over_ab, r2[1]);
     u[1] = hn::Mul(over_ab, r2[0]);
     u[2] = hn::Mul(one_over, ab);
   } else if constexpr (N == 2) {
-    const V one_over = hn::Div(hn::Set(hn::DFromV<V>(), 1.0), hn::Mul(r2[0], r2[1]));
+    const V one_over = hn::Div(one_of<V>(), hn::Mul(r2[0], r2[1]));
     u[0] = hn::Mul(one_over, r2[1]);
     u[1] = hn::Mul(one_over, r2[0]);
   } else {
-    u[0] = hn::Div(hn::Set(hn::DFromV<V>(), 1.0), r2[0]);
+    u[0] = hn::Div(one_of<V>(), r2[0]);
   }
 }
 
-/// D: Highway's tag with the lanes to use. Law: the form the scene needs. R: rings. The form of the
-/// walls is a parameter of the sweeps: all forms move the same columns.
-template <class D, class Law, int R>
+/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings.
+/// low: positions and velocities have low parts (ring_precision-inl.hpp). The form of the walls is
+/// a parameter of the sweeps: all forms move the same columns.
+template <class D, class Law, int R, bool low = false>
 class RingColumns {
  public:
   using Tag = D;
+  using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
+  static constexpr bool has_low = low;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
   static constexpr int rings = R;
-  static constexpr size_t row = size_t{R} * L;  // doubles of x of a column
-  static constexpr size_t positions = 2 * row;  // doubles of x and y
-  static constexpr size_t block = 4 * row;      // doubles of x, y, vx and vy
+  static constexpr size_t row = size_t{R} * L;      // numbers of x of a column
+  static constexpr size_t positions = 2 * row;      // numbers of x and y
+  static constexpr size_t low_positions = 4 * row;  // behind x, y, vx and vy
+  static constexpr size_t low_velocities = 6 * row;
+  static constexpr size_t block = (low ? 8 : 4) * row;
   static constexpr int bonds_a_column = 3 * R - 2;
-  static constexpr size_t terms = size_t{bonds_a_column} * L;  // doubles of a column's reciprocals
+  static constexpr size_t terms = size_t{bonds_a_column} * L;  // of a column's reciprocals
 
   /// Bond b of a column goes from ring `from` at this column to ring `to`, at this or the next one.
   struct BondPlace {
@@ -158,8 +168,10 @@ class RingColumns {
   /// Each lane's constants; a lane without any (null) stands still.
   [[nodiscard]] Constants make_constants(const StageConstants* const* lanes) const {
     const auto each = [lanes](const auto& value_of) HWY_ATTR {
-      HWY_ALIGN double values[L];
-      for (size_t l = 0; l < L; ++l) values[l] = lanes[l] == nullptr ? 0.0 : value_of(*lanes[l]);
+      HWY_ALIGN T values[L];
+      for (size_t l = 0; l < L; ++l) {
+        values[l] = lanes[l] == nullptr ? T{0} : static_cast<T>(value_of(*lanes[l]));
+      }
       return hn::Load(d, values);
     };
     Constants c;
@@ -188,14 +200,14 @@ class RingColumns {
   }
 
   /// x and y of ring r of the column at `at`.
-  static HWY_INLINE V x_of(const double* at, int r) {
+  static HWY_INLINE V x_of(const T* at, int r) {
     return hn::Load(d, at + static_cast<size_t>(r) * L);
   }
-  static HWY_INLINE V y_of(const double* at, int r) {
+  static HWY_INLINE V y_of(const T* at, int r) {
     return hn::Load(d, at + row + static_cast<size_t>(r) * L);
   }
 
-  static HWY_INLINE Column load(const double* at) {
+  static HWY_INLINE Column load(const T* at) {
     Column column;
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
       column.x[r] = x_of(at, r);
@@ -203,7 +215,7 @@ class RingColumns {
     }
     return column;
   }
-  static HWY_INLINE void store(const Column& column, double* at) {
+  static HWY_INLINE void store(const Column& column, T* at) {
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
       hn::Store(column.x[r], d, at + static_cast<size_t>(r) * L);
       hn::Store(column.y[r], d, at + row + static_cast<size_t>(r) * L);
@@ -215,9 +227,9 @@ class RingColumns {
     if constexpr (L == 1) {
       return column;
     } else {
-      HWY_ALIGN int64_t lanes[L];
+      HWY_ALIGN hwy::MakeSigned<T> lanes[L];
       for (size_t l = 0; l < L; ++l) {
-        lanes[l] = static_cast<int64_t>((l + L + static_cast<size_t>(shift)) % L);
+        lanes[l] = static_cast<hwy::MakeSigned<T>>((l + L + static_cast<size_t>(shift)) % L);
       }
       const auto indices = hn::SetTableIndices(d, lanes);
       Column turned;
@@ -231,12 +243,12 @@ class RingColumns {
 
   /// First sweep: 1/R^2 of the bonds of `columns` columns, from `at` on, into u. Behind the last
   /// one the next column's positions must stand.
-  static HWY_INLINE void reciprocals(const double* at, size_t columns, double* u) {
+  static HWY_INLINE void reciprocals(const T* at, size_t columns, T* u) {
     Column here = load(at);
     for (; columns > 0; --columns, u += terms) {
       at += block;
       const Column next = load(at);
-      group_reciprocals<0>(here, next, u);
+      group_reciprocals<0>(here, next, at - block, u);
       here = next;
     }
   }
@@ -245,8 +257,8 @@ class RingColumns {
   /// goes with those of the column behind the last. `nearest` becomes the least distance from a
   /// wall, NaN apart.
   template <Rest rest, class Walls>
-  HWY_INLINE void sums(const Constants& c, const Walls& walls, double* at, size_t columns,
-                       const double* u, Column& left, V& nearest) const {
+  HWY_INLINE void sums(const Constants& c, const Walls& walls, T* at, size_t columns, const T* u,
+                       Column& left, V& nearest) const {
     for (; columns > 0; --columns, at += block, u += terms) {
       Column from_velocity, on_next;
       ring_sums<0, rest>(c, walls, at, u, from_velocity, left, on_next, nearest);
@@ -256,18 +268,18 @@ class RingColumns {
 
   /// Kick, drift and wall of a column whose sums from the velocity on were kept.
   template <class Walls>
-  HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, double* at,
-                              const Column& left, V& nearest) const {
-    const Column kept = load(at + positions);
+  HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, T* at, const Column& left,
+                              V& nearest) const {
+    const Column kept = load(at + summed);
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) finish(c, walls, at, r, kept, left, nearest);
   }
 
   /// `nearest` before the first column.
-  static HWY_INLINE V far_away() { return hn::Set(d, hwy::HighestValue<double>()); }
+  static HWY_INLINE V far_away() { return hn::Set(d, hwy::HighestValue<T>()); }
 
   /// After the sweeps: mirrors what stands behind a wall.
   template <class Walls>
-  static HWY_INLINE void mirror_at_walls(const Constants& c, const Walls& walls, double* at,
+  static HWY_INLINE void mirror_at_walls(const Constants& c, const Walls& walls, T* at,
                                          size_t columns, V nearest) {
     if constexpr (Walls::any) {
       if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
@@ -277,6 +289,9 @@ class RingColumns {
   }
 
  private:
+  // Where what a particle's sums begin from stands.
+  static constexpr size_t summed = low ? low_velocities : positions;
+
   // Numbers of the bonds of a column.
   static constexpr int along(int ring) { return ring; }
   static constexpr int same(int inner) { return R + 2 * inner; }
@@ -284,29 +299,37 @@ class RingColumns {
 
   // Bonds first, first + 1, ... of a column share a division, most_in_group of them.
   template <int first>
-  static HWY_INLINE void group_reciprocals(const Column& here, const Column& next, double* u) {
+  static HWY_INLINE void group_reciprocals(const Column& here, const Column& next, const T* at,
+                                           T* u) {
     constexpr int count = std::min(most_in_group, bonds_a_column - first);
     V r2[count], over[count];
     BOUNCE_UNROLL for (int i = 0; i < count; ++i) {
       const BondPlace p = place(first + i);
       const Column& other = p.next ? next : here;
-      const V dx = hn::Sub(here.x[p.from], other.x[p.to]);
-      const V dy = hn::Sub(here.y[p.from], other.y[p.to]);
+      V dx = hn::Sub(here.x[p.from], other.x[p.to]);
+      V dy = hn::Sub(here.y[p.from], other.y[p.to]);
+      if constexpr (low) {
+        const T *from = at + low_positions, *to = p.next ? from + block : from;
+        dx = hn::Add(dx, hn::Sub(x_of(from, p.from), x_of(to, p.to)));
+        dy = hn::Add(dy, hn::Sub(y_of(from, p.from), y_of(to, p.to)));
+      }
       r2[i] = hn::MulAdd(dy, dy, hn::Mul(dx, dx));
     }
     reciprocals_of<count>(r2, over);
     BOUNCE_UNROLL for (int i = 0; i < count; ++i) {
       hn::Store(over[i], d, u + static_cast<size_t>(first + i) * L);
     }
-    if constexpr (first + count < bonds_a_column) group_reciprocals<first + count>(here, next, u);
+    if constexpr (first + count < bonds_a_column) {
+      group_reciprocals<first + count>(here, next, at, u);
+    }
   }
 
   // Bond b: on `rest` what acts on the column at `at`, on `on_next` what acts on the next one.
   template <int b>
-  HWY_INLINE void bond(const Constants& c, const double* at, const double* u, Column& rest,
+  HWY_INLINE void bond(const Constants& c, const T* at, const T* u, Column& rest,
                        Column& on_next) const {
     constexpr BondPlace p = place(b);
-    const double* to = p.next ? at + block : at;
+    const T* to = p.next ? at + block : at;
     const V dx = hn::Sub(x_of(at, p.from), x_of(to, p.to));
     const V dy = hn::Sub(y_of(at, p.from), y_of(to, p.to));
     const V over = hn::Load(d, u + static_cast<size_t>(b) * L);
@@ -320,21 +343,21 @@ class RingColumns {
   }
 
   template <int r>
-  HWY_INLINE void start_ring(const Constants& c, const double* at, const double* u, Column& rest,
+  HWY_INLINE void start_ring(const Constants& c, const T* at, const T* u, Column& rest,
                              Column& on_next) const {
-    rest.x[r] = x_of(at + positions, r);
-    rest.y[r] = y_of(at + positions, r);
+    rest.x[r] = x_of(at + summed, r);
+    rest.y[r] = y_of(at + summed, r);
     bond<along(r)>(c, at, u, rest, on_next);
   }
 
   template <Rest rest, class Walls>
-  HWY_INLINE void end_ring(const Constants& c, const Walls& walls, double* at, int r,
-                           const Column& sums, const Column& left, V& nearest) const {
+  HWY_INLINE void end_ring(const Constants& c, const Walls& walls, T* at, int r, const Column& sums,
+                           const Column& left, V& nearest) const {
     if constexpr (rest == Rest::finish) {
       finish(c, walls, at, r, sums, left, nearest);
     } else if constexpr (rest == Rest::keep) {
-      hn::Store(sums.x[r], d, at + positions + static_cast<size_t>(r) * L);
-      hn::Store(sums.y[r], d, at + positions + row + static_cast<size_t>(r) * L);
+      hn::Store(sums.x[r], d, at + summed + static_cast<size_t>(r) * L);
+      hn::Store(sums.y[r], d, at + summed + row + static_cast<size_t>(r) * L);
     }
   }
 
@@ -342,8 +365,8 @@ class RingColumns {
   // sums are alive at a time. Along, same, diagonal of each pair of rings: the order of the numbers
   // for each particle.
   template <int ring, Rest rest, class Walls>
-  HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, double* at, const double* u,
-                            Column& sums, const Column& left, Column& on_next, V& nearest) const {
+  HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, T* at, const T* u, Column& sums,
+                            const Column& left, Column& on_next, V& nearest) const {
     if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
     if constexpr (ring + 1 < R) {
       start_ring<ring + 1>(c, at, u, sums, on_next);
@@ -357,30 +380,85 @@ class RingColumns {
   }
 
   template <class Walls>
-  HWY_INLINE void finish(const Constants& c, const Walls& walls, double* at, int ring,
+  HWY_INLINE void finish(const Constants& c, const Walls& walls, T* at, int ring,
                          const Column& sums, const Column& left, V& nearest) const {
-    const auto r = static_cast<size_t>(ring);
-    const V vx = hn::Add(sums.x[ring], left.x[ring]);
-    const V vy = hn::Add(sums.y[ring], left.y[ring]);
-    const V x = hn::MulAdd(c.drift, vx, x_of(at, ring));
-    const V y = hn::MulAdd(c.drift, vy, y_of(at, ring));
-    hn::Store(x, d, at + r * L);
-    hn::Store(y, d, at + row + r * L);
-    hn::Store(vx, d, at + 2 * row + r * L);
-    hn::Store(vy, d, at + 3 * row + r * L);
+    T* const in_ring = at + static_cast<size_t>(ring) * L;
+    const V x = move(c.drift, hn::Add(sums.x[ring], left.x[ring]), in_ring);
+    const V y = move(c.drift, hn::Add(sums.y[ring], left.y[ring]), in_ring + row);
     if constexpr (Walls::any) nearest = hn::Min(walls.distance(d, x, y), nearest);
   }
 
+  // One coordinate of a particle: `at` its place, `sum` its velocity, or the kick where that has a
+  // low part. Returns the coordinate.
+  static HWY_INLINE V move(V drift, V sum, T* at) {
+    V v = sum, x = hn::Load(d, at);
+    if constexpr (low) {
+      v = add(hn::Load(d, at + positions), sum, at + low_velocities);
+      const V low_v = hn::Load(d, at + low_velocities), low_x = hn::Load(d, at + low_positions);
+      x = add(x, hn::MulAdd(drift, v, hn::MulAdd(drift, low_v, low_x)), at + low_positions);
+    } else {
+      x = hn::MulAdd(drift, v, x);
+    }
+    hn::Store(v, d, at + positions);
+    hn::Store(x, d, at);
+    return x;
+  }
+
+  // high + more; what is lost in it goes to `lost`. That is exact where |more| <= |high|; else it
+  // is off by an ULP of `more`, as `more` itself is.
+  static HWY_INLINE V add(V high, V more, T* lost) {
+    const V sum = hn::Add(high, more);
+    hn::Store(hn::Sub(more, hn::Sub(sum, high)), d, lost);
+    return sum;
+  }
+
   template <class Walls>
-  static HWY_NOINLINE void mirror_columns(const Constants& c, const Walls& walls, double* at,
+  static HWY_NOINLINE void mirror_columns(const Constants& c, const Walls& walls, T* at,
                                           size_t columns) {
     for (; columns > 0; --columns, at += block) {
       for (int r = 0; r < R; ++r) {
         if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
-        double* x = at + static_cast<size_t>(r) * L;
-        walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
+        T* x = at + static_cast<size_t>(r) * L;
+        if constexpr (low) {
+          mirror_with_low(c.drift, walls.walls, x);
+        } else {
+          walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
+        }
       }
     }
+  }
+
+  // The rules are linear in position and velocity: a low part is turned by the wall as the high
+  // one. Where a particle is stopped, nothing is left of it.
+  static HWY_NOINLINE void mirror_with_low(V drift, const std::vector<Wall>& walls, T* x) {
+    const V zero = hn::Zero(d);
+    for (const Wall& wall : walls) {
+      const auto w = in_all_lanes(d, wall);
+      const V distance = distance_from(w, hn::Load(d, x), hn::Load(d, x + row));
+      reflect(d, w, drift, x, x + row, x + 2 * row, x + 3 * row);
+      const auto met = hn::And(hn::Le(distance, zero), hn::Ge(drift, zero));
+      const V back = wall.contact == Contact::resolved ? w.beta : hn::Set(d, T{-1});
+      turn_low(met, w, one_of<V>(), back, x + low_positions);
+      T* const slow = x + low_velocities;
+      turn_low(met, w, w.alpha, w.beta, slow);
+      for (const size_t part : {size_t{0}, row}) {
+        const auto stopped = hn::And(met, hn::Eq(hn::Load(d, x + positions + part), zero));
+        hn::Store(hn::IfThenElse(stopped, zero, hn::Load(d, slow + part)), d, slow + part);
+      }
+    }
+  }
+
+  // In the lanes of `met`: the part along the wall times `along`, the part across it times `back`.
+  template <class Mask>
+  static HWY_INLINE void turn_low(Mask met, const WallVectors<V>& w, V along, V back, T* at) {
+    const V lx = hn::Load(d, at), ly = hn::Load(d, at + row);
+    const V across = hn::MulAdd(w.nx, lx, hn::Mul(w.ny, ly));
+    const V tx = hn::NegMulAdd(across, w.nx, lx), ty = hn::NegMulAdd(across, w.ny, ly);
+    const V after = hn::Mul(back, across);
+    const V new_x = hn::MulAdd(along, tx, hn::Mul(after, w.nx));
+    const V new_y = hn::MulAdd(along, ty, hn::Mul(after, w.ny));
+    hn::Store(hn::IfThenElse(met, new_x, lx), d, at);
+    hn::Store(hn::IfThenElse(met, new_y, ly), d, at + row);
   }
 
   RingShape shape_;

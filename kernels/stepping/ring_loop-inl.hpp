@@ -35,6 +35,7 @@ class RingLoop {
   using Column = typename Columns::Column;
   using Constants = typename Columns::Constants;
   using Rest = typename Columns::Rest;
+  using T = typename Columns::T;
   using V = typename Columns::V;
 
  public:
@@ -42,21 +43,21 @@ class RingLoop {
       : size_(columns), data_((columns + 1) * Columns::block), u_(Columns::terms * (chunk + 1)) {}
 
   [[nodiscard]] size_t size() const { return size_; }
-  [[nodiscard]] double* column(size_t k) { return data_.data() + k * Columns::block; }
-  [[nodiscard]] const double* column(size_t k) const { return data_.data() + k * Columns::block; }
+  [[nodiscard]] T* column(size_t k) { return data_.data() + k * Columns::block; }
+  [[nodiscard]] const T* column(size_t k) const { return data_.data() + k * Columns::block; }
 
   // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
   // last tile as they were before the stage, outermost first.
   static constexpr size_t told = 1;  // of those columns
-  HWY_INLINE Column before_first(const double* const*, const double* const* last) const {
+  HWY_INLINE Column before_first(const T* const*, const T* const* last) const {
     return turn(Columns::load(last[0]), -1);
   }
-  HWY_INLINE Column behind_last(const double* const* first, const double* const*) const {
+  HWY_INLINE Column behind_last(const T* const* first, const T* const*) const {
     return turn(Columns::load(first[0]), 1);
   }
   // Nothing is to be mended at the ends after a stage.
-  void mend_first(double*) const {}
-  void mend_last(double*) const {}
+  void mend_first(T*) const {}
+  void mend_last(T*) const {}
 
   template <class Walls>
   HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
@@ -81,14 +82,20 @@ class RingLoop {
   }
 
  private:
-  HWY_INLINE void fill_ghost() { Columns::store(turn(Columns::load(column(0)), 1), column(size_)); }
+  HWY_INLINE void fill_ghost() {
+    Columns::store(turn(Columns::load(column(0)), 1), column(size_));
+    if constexpr (Columns::has_low) {
+      constexpr size_t low = Columns::low_positions;
+      Columns::store(turn(Columns::load(column(0) + low), 1), column(size_) + low);
+    }
+  }
 
   // One stage.
   template <class Walls>
   HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls) {
-    double* first = column(0);
-    double* u = u_.data();
-    double* u_first = u + chunk * Columns::terms;
+    T* first = column(0);
+    T* u = u_.data();
+    T* u_first = u + chunk * Columns::terms;
     V nearest = Columns::far_away();
     Column left;
     fill_ghost();
@@ -114,7 +121,7 @@ class RingLoop {
   }
 
   size_t size_;
-  AlignedArray data_, u_;
+  AlignedArrayOf<T> data_, u_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -12,6 +12,7 @@ struct Snapshot {
   State state;
   bool stage_held = false;  ///< the last stage of the last step is still due (method.hpp)
   std::int64_t step = 0;    ///< steps taken
+  State low = {};           ///< what the state's doubles do not hold (Precision), or empty
 };
 
 /// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.
@@ -20,7 +21,7 @@ class Stepper {
   virtual ~Stepper() = default;
   /// Takes `steps` steps. advance(a) then advance(b) gives the bits of advance(a + b).
   virtual void advance(std::int64_t steps) = 0;
-  /// Positions and velocities at the current step, all its stages done.
+  /// Positions and velocities at the current step, all its stages done; low parts are rounded away.
   [[nodiscard]] virtual State state() const = 0;
   /// For going back or going on elsewhere; restore() accepts any kernel's snapshot of this problem.
   [[nodiscard]] virtual Snapshot save() const = 0;

@@ -34,9 +34,11 @@ struct alignas(64) WallVectors {
 
 template <class D>
 HWY_INLINE WallVectors<hn::Vec<D>> in_all_lanes(D d, const Wall& wall) {
-  return {hn::Set(d, wall.normal.x), hn::Set(d, wall.normal.y),
-          hn::Set(d, wall.offset),   hn::Set(d, wall.alpha),
-          hn::Set(d, wall.beta),     hn::Set(d, wall.contact == Contact::resolved ? 1.0 : 0.0)};
+  const auto all = [d](double value)
+                       HWY_ATTR { return hn::Set(d, static_cast<hn::TFromD<D>>(value)); };
+  return {all(wall.normal.x), all(wall.normal.y),
+          all(wall.offset),   all(wall.alpha),
+          all(wall.beta),     all(wall.contact == Contact::resolved ? 1.0 : 0.0)};
 }
 
 /// The distance of points from a wall, cm.
@@ -62,24 +64,24 @@ HWY_INLINE WallAnswer<V> mirror_answer(const WallVectors<V>& wall, V distance) {
 template <class V>
 HWY_INLINE WallAnswer<V> resolved_answer(const WallVectors<V>& wall, V distance, V moved, V drift,
                                          V size) {
+  using T = hn::TFromV<V>;
   const hn::DFromV<V> d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
-  const V slack = hn::Mul(hn::Set(d, resting_slack), hn::Add(size, hn::Abs(wall.offset)));
+  const V zero = hn::Zero(d), one = hn::Set(d, T{1});
+  const V slack = hn::Mul(hn::Set(d, T{resting_slack}), hn::Add(size, hn::Abs(wall.offset)));
   const auto resting = hn::And(hn::And(hn::Eq(wall.beta, zero), hn::Lt(wall.alpha, one)),
                                hn::Le(hn::Sub(distance, moved), slack));
   const V alpha = hn::IfThenElse(resting, zero, wall.alpha);
   const V part = hn::Div(distance, moved);
   // Not above 0, or not a number, where the drift did not lead into the wall.
   const V behind =
-      hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, hn::Set(d, most_part_behind)), zero);
+      hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, hn::Set(d, T{most_part_behind})), zero);
   return {hn::Mul(hn::Sub(one, wall.beta), distance), alpha,
           hn::Mul(hn::Mul(behind, drift), hn::Sub(alpha, one))};
 }
 
 /// What a vector of particles at (x, y) does at one wall, after a drift of `drift` (s).
-template <class D, class V = hn::Vec<D>>
-HWY_NOINLINE void reflect(D d, const WallVectors<V>& wall, V drift, double* x, double* y,
-                          double* vx, double* vy) {
+template <class D, class V = hn::Vec<D>, class T = hn::TFromD<D>>
+HWY_NOINLINE void reflect(D d, const WallVectors<V>& wall, V drift, T* x, T* y, T* vx, T* vy) {
   const V px = hn::Load(d, x), py = hn::Load(d, y);
   const V ux = hn::Load(d, vx), uy = hn::Load(d, vy);
   const V distance = distance_from(wall, px, py);
@@ -140,7 +142,7 @@ struct Floor {
   }
   template <class D>
   HWY_INLINE hn::Vec<D> threshold(D d) const {
-    return hn::Set(d, walls[0].offset);
+    return hn::Set(d, static_cast<hn::TFromD<D>>(walls[0].offset));
   }
   template <class D>
   void mirror(D d, hn::Vec<D> drift, double* x, double* y, double* vx, double* vy) const {
