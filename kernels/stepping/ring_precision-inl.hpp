@@ -13,8 +13,8 @@
 //     multiplied by a force that is small where bonds are near rest.
 //  4. Walls are met by the high part; the low part is turned as the high one. For a floor both are
 //     exact. Other walls round: by 5e-7 cm a contact in single precision, which refuses them.
-//  5. Single takes twice the lanes of AVX2, eight floats. With AVX-512 too: 120 columns are 7.5 of
-//     16, and on a core that does 512 bits in two halves, eight lanes lose nothing.
+//  5. Single takes twice the lanes of AVX2, eight floats. With AVX-512 too, in half vectors: 120
+//     columns are 7.5 of 16.
 //  6. Single runs the wall test always: the bound of free flight counts double's roundings.
 //  7. A snapshot keeps high and low parts, so a run goes on with the same bits; a state (file,
 //     frame) is rounded to doubles, and a run from it begins with what these hold.
