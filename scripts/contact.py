@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """The two contact rules as the step goes to 0: a table, CSV and picture from bounce accuracy's rows.
 
-Reads RUNS/contact-SCENE and RUNS/contact-growth (scripts/contact.sh makes them); writes OUT/contact.md, contact.csv, contact.png. From studies
-of one clean commit only, unless --allow-dirty.
+Reads RUNS/contact-SCENE and RUNS/contact-growth (scripts/contact.sh makes them); writes OUT/contact.md, contact.csv,
+contact.png. From studies of one clean commit only, unless --allow-dirty.
 """
 
 import argparse
@@ -76,18 +76,12 @@ def growth_text(folder):
     """What bounce reference says of Example 3, of which no rule of contact could decide the end."""
     path = folder / "observables.json"
     try:
-        growth = find_growth(json.loads(path.read_text()))
-        return (f"Example 3 collapses: a start disturbed by {growth['start']:.1e} cm is {growth['at_contact']:.1e} cm off at "
-                f"the first contact and {growth['end']:.1e} cm at the end, {growth['rate']:.1f} e-folds a second. No step "
+        growth = json.loads(path.read_text())["growth"]
+        return (f"Example 3 collapses: a start disturbed by {growth['start']:.1e} cm is {growth['at_contact']:.1e} cm "
+                f"off at the first contact and {growth['end']:.1e} cm at the end, {growth['rate']:.1f} e-folds a second. No step "
                 "and no rule converges there to a particle's place.\n")
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise RunError(f"{path}: holds no growth of a disturbance: {error}") from error
-
-
-def find_growth(record):
-    if "growth" in record:
-        return record["growth"]
-    return next(value["growth"] for value in record.values() if isinstance(value, dict) and "growth" in value)
 
 
 def markdown(rows, some, growth):
