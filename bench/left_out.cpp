@@ -73,6 +73,14 @@ void slippery(Scene& scene) {
   scene.walls.front().beta = -1.0;
 }
 
+// The ball's lowest particles on the floor, pressed by its weight.
+void resting(Scene& scene) { scene.ball.centre.y = 7.0; }
+void resting_resolved(Scene& scene) {
+  resting(scene);
+  scene.walls.front().contact = Contact::resolved;
+}
+void resolved(Scene& scene) { scene.walls.front().contact = Contact::resolved; }
+
 void nothing(Scene& scene) {
   no_wall(scene);
   no_gravity(scene);
@@ -112,6 +120,13 @@ void add_pairs() {
   add_pair("walls in other directions than up, in ring", {"ring", any_direction}, ring);
   add_pair("a second wall, in ring", {"ring", two_walls}, ring);
   add_pair("friction and restitution of the wall, in ring", {"ring", slippery}, ring);
+  for (const char* kernel : {"ring", "mirror", "csr"}) {
+    const std::string in = std::string(", in ") + kernel;
+    add_pair("resolved contact for the listing's, in the air" + in, {kernel, resolved},
+             {kernel, as_it_is});
+    add_pair("resolved contact for the listing's, on the floor" + in, {kernel, resting_resolved},
+             {kernel, resting});
+  }
   add_pair("gravity, in ring", ring, {"ring", no_gravity});
   add_pair("a square root: exponents (2, 4) for (3, 5), in ring", {"ring", law(2, 4)}, ring);
   add_pair("higher powers: (7, 13) for (3, 5), in ring", {"ring", law(7, 13)}, ring);

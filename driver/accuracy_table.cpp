@@ -8,8 +8,9 @@
 namespace bounce {
 namespace {
 
-const char* name_of(Contact contact) {
-  return contact == Contact::resolved ? "resolved" : "listing";
+std::string parameter_of(const AccuracyRow& row) {
+  return row.tolerance > 0.0 ? fmt::format("tol {:.0e}", row.tolerance)
+                             : fmt::format("{:.3g}", row.step);
 }
 
 // An error as far as the reference can tell it.
@@ -20,9 +21,9 @@ std::string told(double error, double bar) {
 
 std::string line_of(const TimedRow& timed, const CourseErrors& bar) {
   const AccuracyRow& row = timed.row;
-  std::string line = fmt::format("{:<15} {:<9} {:>9.3g} {:>9.3g} {:>9}", row.setting.method,
-                                 name_of(row.setting.contact), row.step, timed.seconds,
-                                 told(row.errors.position, bar.position));
+  std::string line =
+      fmt::format("{:<15} {:<9} {:>9} {:>9.3g} {:>9}", row.setting.method, contact_name(row),
+                  parameter_of(row), timed.seconds, told(row.errors.position, bar.position));
   for (const ObservableName& each : observable_names) {
     line += fmt::format(" {:>9}",
                         told(row.errors.observables.*each.value, bar.observables.*each.value));
@@ -52,11 +53,16 @@ std::string papers_text(std::span<const TimedRow> rows, const PapersProgram& pap
   return text + fmt::format(
                     "The cheapest row here that is no worse in any observable: {}, contact {}, dt "
                     "= {:.3g} s, in\n{:.3g} s: {:.0f} times sooner.\n",
-                    row.row.setting.method, name_of(row.row.setting.contact), row.row.step,
-                    row.seconds, papers.seconds / row.seconds);
+                    row.row.setting.method, contact_name(row.row), row.row.step, row.seconds,
+                    papers.seconds / row.seconds);
 }
 
 }  // namespace
+
+std::string_view contact_name(const AccuracyRow& row) {
+  if (row.baseline == BaselineContact::located) return "located";
+  return row.setting.contact == Contact::resolved ? "resolved" : "listing";
+}
 
 double error_or_bar(double error, double bar) {
   return error > bar ? error : std::isnan(error) ? error : bar;
@@ -82,11 +88,11 @@ std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
 
 std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& reference,
                          const CourseErrors& bar) {
-  std::string csv = "method,contact,dt,steps,evaluations,kernel,seconds,error_position";
+  std::string csv = "method,contact,dt,tolerance,steps,evaluations,kernel,seconds,error_position";
   for (const ObservableName& each : observable_names) csv += fmt::format(",error_{}", each.name);
   csv += ",error_energy,error_energy_free";
   for (const ObservableName& each : observable_names) csv += fmt::format(",{}", each.name);
-  csv += "\nreference,,,,,,," + fmt::format("{:.4g}", bar.position);
+  csv += "\nreference,,,,,,,," + fmt::format("{:.4g}", bar.position);
   for (const ObservableName& each : observable_names) {
     csv += fmt::format(",{:.4g}", bar.observables.*each.value);
   }
@@ -97,9 +103,9 @@ std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& ref
   csv += "\n";
   for (const TimedRow& timed : rows) {
     const AccuracyRow& row = timed.row;
-    csv += fmt::format("{},{},{},{},{},{},{:.4g},{:.4g}", row.setting.method,
-                       name_of(row.setting.contact), row.step, row.steps, row.evaluations,
-                       row.kernel, timed.seconds, row.errors.position);
+    csv += fmt::format("{},{},{},{},{},{},{},{:.4g},{:.4g}", row.setting.method, contact_name(row),
+                       row.step, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
+                       row.steps, row.evaluations, row.kernel, timed.seconds, row.errors.position);
     for (const ObservableName& each : observable_names) {
       csv += fmt::format(",{:.4g}", row.errors.observables.*each.value);
     }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "verify/accuracy.hpp"
 
@@ -20,6 +21,9 @@ struct PapersProgram {
   std::optional<std::size_t> row;  ///< the listing's scheme and contact at 1e-6 s
   double seconds = 0.0;            ///< of the same steps by the oracle; 0: it cannot run the scene
 };
+
+/// "listing", "resolved" or, of baselines that find the very time of a contact, "located".
+std::string_view contact_name(const AccuracyRow& row);
 
 /// What an error is set against: below its own uncertainty (the reference's) it counts as that.
 double error_or_bar(double error, double bar);

@@ -26,6 +26,7 @@
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/accuracy.hpp"
+#include "verify/baseline.hpp"
 #include "verify/reference_pair.hpp"
 
 namespace bounce {
@@ -69,9 +70,12 @@ struct Study {
 
 void check(const Options& options, const Scene& scene) {
   for (const std::string& name : options.methods) {
-    if (find_method(name) != nullptr) continue;
+    if (find_method(name) != nullptr || is_baseline(name)) continue;
     std::vector<std::string> all;
     for (const Method& method : methods()) all.emplace_back(method.name);
+    for (const Baseline& baseline : baselines()) {
+      if (all.back() != baseline.name) all.emplace_back(baseline.name);
+    }
     throw InputError(
         fmt::format("--methods {}: unknown; allowed is {}", name, fmt::join(all, ", ")));
   }
@@ -184,6 +188,32 @@ std::optional<std::vector<AccuracyRow>> run_all(const Study& study, const Refere
                           });
 }
 
+// The baselines, one course at a time: they are timed as they run.
+void add_baselines(const Options& options, const Study& study, const Reference& reference,
+                   std::vector<TimedRow>& timed) {
+  const auto& wanted = options.methods;
+  BaselineSweep sweep;
+  if (options.quick) sweep = {2, 10.0, 0.1};
+  for (const Baseline& baseline : baselines()) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), baseline.name) == wanted.end()) {
+      continue;
+    }
+    if (study.scene.walls.empty() && baseline.contact == BaselineContact::listing) continue;
+    const auto tick = [] {
+      if (interrupted()) throw Stopped();
+    };
+    for (BaselineRow& each : measure_baseline(baseline, study.scene, study.initial, study.sampling,
+                                              reference.record, sweep, tick)) {
+      timed.push_back({std::move(each.row), each.seconds});
+    }
+  }
+}
+
+int interrupted_exit() {
+  fmt::print(stderr, "bounce: interrupted; nothing was written\n");
+  return exit_interrupted;
+}
+
 int accuracy(const Options& options, const std::string& command_line) {
   const Study study = make_study(options);
   RunDirectory directory(options.directory(), options.force, "accuracy.csv");
@@ -197,10 +227,7 @@ int accuracy(const Options& options, const std::string& command_line) {
   } catch (const ReferenceError& error) {
     throw InputError(fmt::format("this scene has no reference: {}", error.what()));
   }
-  if (!rows) {
-    fmt::print(stderr, "bounce: interrupted; nothing was written\n");
-    return exit_interrupted;
-  }
+  if (!rows) return interrupted_exit();
   const CourseTimes times = time_courses(study.scene, study.initial, study.sampling, *rows, true);
   std::vector<TimedRow> timed;
   PapersProgram papers;
@@ -209,16 +236,22 @@ int accuracy(const Options& options, const std::string& command_line) {
     if (row.setting == study.papers) papers = {i, times.oracle * static_cast<double>(row.steps)};
     timed.push_back({row, times.rows[i]});
   }
+  try {
+    add_baselines(options, study, reference, timed);
+  } catch (const Stopped&) {
+    return interrupted_exit();
+  }
   const std::string table = accuracy_table(timed, papers, reference.record, reference.bar);
   write_file_whole(directory.path() / "scene.toml", to_toml(study.scene));
-  write_file_whole(directory.path() / "accuracy.csv", accuracy_csv(timed, reference.record, reference.bar));
+  write_file_whole(directory.path() / "accuracy.csv",
+                   accuracy_csv(timed, reference.record, reference.bar));
   write_file_whole(directory.path() / "table.txt", table);
   Json origin = origin_json(options, study, command_line);
   origin["oracle_seconds"] = papers.seconds;
   if (const auto best = cheapest_as_good(timed, papers, reference.bar)) {
     const Setting& setting = timed[*best].row.setting;
     origin["best"] = {{"method", setting.method},
-                      {"contact", setting.contact == Contact::resolved ? "resolved" : "listing"},
+                      {"contact", std::string(contact_name(timed[*best].row))},
                       {"dt", timed[*best].row.step},
                       {"seconds", timed[*best].seconds}};
   }
@@ -237,7 +270,8 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
   command->add_option("SCENE", options->scene, "A scene's name, or a file")->required();
   add_set_option(*command, options->settings);
   command->add_option("--initial", options->initial, "Start from this state (CSV)");
-  command->add_option("--methods", options->methods, "These methods [all]")->delimiter(',');
+  command->add_option("--methods", options->methods, "These methods and baselines [all]")
+      ->delimiter(',');
   command->add_option("--every", options->every, "Time between two looks, s [0.01]");
   command->add_option("--decades", options->decades,
                       "Time steps from the stable one down so many decades [3]");

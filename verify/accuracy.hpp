@@ -43,11 +43,17 @@ struct Sampling {
 /// As many intervals of about `every` (s) as make up the scene's time.
 Sampling sampling_of(const Scene& scene, double every);
 
+/// How a baseline (baseline.hpp) meets walls: by one of the two rules after a step, or at the very
+/// time.
+enum class BaselineContact { listing, resolved, located };
+
 /// A setting and what came of it.
 struct AccuracyRow {
   Setting setting;
-  double step = 0.0;             ///< s
-  std::int64_t steps = 0;        ///< of the whole course
+  std::optional<BaselineContact> baseline;  ///< of a baseline; the setting then has its name only
+  double tolerance = 0.0;  ///< of an adaptive baseline; its step is the mean one. 0: fixed steps
+  double step = 0.0;       ///< s
+  std::int64_t steps = 0;  ///< of the whole course
   std::int64_t evaluations = 0;  ///< of the force
   std::string kernel;
   CourseRecord record;  ///< without the state before the impact

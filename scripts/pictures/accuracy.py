@@ -9,7 +9,11 @@ from pictures import drawing
 from pictures.drawing import plt
 from pictures.run import RunError
 
-COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c", "#8a9099", "#c1121f"]
+COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c", "#8a9099", "#c1121f",
+           "#d4a5c9", "#3d405b", "#b5a642", "#00798c"]
+STYLES = {"resolved": {"marker": "o", "markersize": 3},
+          "listing": {"marker": "x", "markersize": 4, "linestyle": ":"},
+          "located": {"marker": "s", "markersize": 3, "linestyle": "--"}}
 TEXTS = ("method", "contact", "kernel")
 PANELS = {
     "position": "largest position error\njust before the impact, cm",
@@ -66,8 +70,7 @@ def draw_panel(axes, study, cost, name, colours):
     for (method, contact), rows in study.lines().items():
         # Beyond the edge of stability, or where the error is 0, there is nothing to show.
         rows = sorted((r for r in rows if math.isfinite(r[key]) and r[key] > 0), key=lambda r: r[cost])
-        style = {"marker": "o", "markersize": 3} if contact == "resolved" else {
-            "marker": "x", "markersize": 4, "linestyle": ":"}
+        style = STYLES[contact]
         axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0,
                   label=f"{method}, {contact}", **style)
     papers = study.papers()

@@ -10,6 +10,7 @@
 #include "driver/course_timing.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/accuracy.hpp"
+#include "verify/baseline.hpp"
 #include "verify/reference_pair.hpp"
 
 namespace bounce {
@@ -156,6 +157,39 @@ TEST(Accuracy, SettingsCoverTheDecades) {
   // 0.9 of 1.532e-3 s: 7.2515 steps in 0.01 s, so 8.
   EXPECT_EQ(settings.front().steps_a_sample, 8);
   EXPECT_EQ(settings.back().steps_a_sample, 7252);
+}
+
+// ------------------------------------------------------------------------ baselines
+
+std::vector<BaselineRow> sweep_of(const Baseline& baseline, const BaselineSweep& sweep) {
+  return measure_baseline(baseline, impact_scene(), {}, sampling, impact_reference(), sweep, [] {});
+}
+
+// Two values of the parameter apart: steps a quarter, of order 2 at best and 1 at the contacts; or
+// tolerances a hundredth of a hundredth. A factor 2 is what order 1 keeps of 4 where contacts fall
+// now here, now there within a step; the adaptive ones gain 1e4 and keep 100 of it.
+TEST(Baseline, ComesNearerTheReference) {
+  for (const Baseline& baseline : baselines()) {
+    if (baseline.contact == BaselineContact::listing) continue;  // that converges too slowly
+    const auto rows = sweep_of(baseline, {3, 60.0, 0.0});
+    ASSERT_EQ(rows.size(), 3U) << baseline.name;
+    const double first = rows[0].row.errors.observables.height;
+    const double last = rows[2].row.errors.observables.height;
+    EXPECT_LT(last * (baseline.adaptive() ? 100.0 : 2.0), first) << baseline.name;
+    for (const BaselineRow& each : rows) {
+      EXPECT_GT(each.row.evaluations, each.row.steps) << baseline.name;
+      EXPECT_GT(each.seconds, 0.0);
+      EXPECT_EQ(each.row.tolerance > 0.0, baseline.adaptive());
+    }
+  }
+}
+
+TEST(Baseline, ACourseThatTakesTooLongHasNoResult) {
+  for (const Baseline& baseline : baselines()) {
+    const auto rows = sweep_of(baseline, {3, 0.0, 0.0});
+    ASSERT_EQ(rows.size(), 1U) << baseline.name;
+    EXPECT_EQ(rows[0].row.errors.observables.height, infinity) << baseline.name;
+  }
 }
 
 // ------------------------------------------------------------------------ the cheapest as good

@@ -60,7 +60,7 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
   const fs::path at = folder_ / "runs/example-1-accuracy";
   const std::string csv = contents(at / "accuracy.csv");
   EXPECT_NE(csv.find("\nreference,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\nlisting,listing,1e-06,100000,100000,mirror,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nlisting,listing,1e-06,,100000,100000,mirror,"), std::string::npos) << csv;
   EXPECT_NE(csv.find("\nleapfrog,resolved,"), std::string::npos) << csv;
   EXPECT_EQ(contents(at / "table.txt") + "\nfiles: runs/example-1-accuracy\n", out());
   EXPECT_NE(out().find("times sooner"), std::string::npos) << out();
@@ -68,6 +68,16 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
   EXPECT_TRUE(fs::exists(at / "scene.toml"));
   EXPECT_EQ(run(short_course), 2);  // it is there already
   EXPECT_NE(err().find("exists already"), std::string::npos) << err();
+}
+
+TEST_F(DriverAccuracyTest, HasTheBaselinesBesideTheMethods) {
+  ASSERT_EQ(run(impact + "--methods conservative,gsl-rkf45 --quick"), 0) << err();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  for (const char* row : {"\nconservative,listing,", "\nconservative,resolved,", ",1e-04,",
+                          "\ngsl-rkf45,located,", ",1e-06,", ",baseline,"}) {
+    EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
+  }
+  EXPECT_EQ(csv.find("\nleapfrog,"), std::string::npos) << csv;
 }
 
 TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {

@@ -1,0 +1,34 @@
+#include "verify/baseline_gsl.hpp"
+
+#include "verify/contact_course.hpp"
+#include "verify/gsl_flow.hpp"
+
+namespace bounce {
+namespace {
+
+BaselineWork solve(const gsl_odeiv2_step_type* type, const Problem& problem, double tolerance,
+                   std::span<const double> times, const ReferenceVisitor& visit,
+                   const std::function<void()>& tick) {
+  GslFlow flow(problem, type, tolerance, tick);
+  const ReferenceRun run = ContactCourse<GslFlow>(problem, flow).run(times, visit);
+  return {run.steps, run.evaluations};
+}
+
+}  // namespace
+
+BaselineWork solve_rkf45(const Problem& problem, double tolerance, std::span<const double> times,
+                         const ReferenceVisitor& visit, const std::function<void()>& tick) {
+  return solve(gsl_odeiv2_step_rkf45, problem, tolerance, times, visit, tick);
+}
+
+BaselineWork solve_rk8pd(const Problem& problem, double tolerance, std::span<const double> times,
+                         const ReferenceVisitor& visit, const std::function<void()>& tick) {
+  return solve(gsl_odeiv2_step_rk8pd, problem, tolerance, times, visit, tick);
+}
+
+BaselineWork solve_msadams(const Problem& problem, double tolerance, std::span<const double> times,
+                           const ReferenceVisitor& visit, const std::function<void()>& tick) {
+  return solve(gsl_odeiv2_step_msadams, problem, tolerance, times, visit, tick);
+}
+
+}  // namespace bounce
