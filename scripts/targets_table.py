@@ -63,7 +63,7 @@ def targets(folder):
     for vector in ("avx512", "avx2"):
         yield (f"ring {vector}, two cores on one ball: × one{shaken}", 1.4, True,
                ratio(fast, (f"ring {vector}", 2), (f"ring {vector}", 1)))
-    yield "Example 1 as auto runs it: × oracle -O3", 35, True, figure(fast, "auto, example-1", 0, "x_oracle_O3")
+    yield "Example 1 as auto runs it: × oracle -O3", 35, True, figure(fast, "auto auto, example-1", 0, "x_oracle_O3")
     yield ("ring avx512, four threads on two cores: × one thread", 0.5, True,
            ratio(fast, ("ring avx512", 4), ("ring avx512", 1)))
     for vector in ("avx512", "avx2"):

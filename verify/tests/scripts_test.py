@@ -180,7 +180,7 @@ class Targets(unittest.TestCase):
 
     def test_met_missed_and_not_measured(self):
         rows = self.rows({"ring avx512/threads:1": [20.0, 19.0, 21.0], "ring avx2/threads:1": [8.9] * 3,
-                          "ring avx512/threads:4": [9.0] * 3, "auto, example-1/threads:0": [math.nan] * 3})
+                          "ring avx512/threads:4": [9.0] * 3, "auto auto, example-1/threads:0": [math.nan] * 3})
         self.assertEqual(rows["ring avx512, one core: × oracle -O3"], ["20.00", "met"])
         self.assertEqual(rows["ring avx2, one core: × oracle -O3"], ["8.90", "**not met**"])
         self.assertEqual(rows["ring avx512, four threads on two cores: × one thread"], ["0.45", "**not met**"])
