@@ -62,8 +62,11 @@ std::string prepare_ring_precision(const Problem& problem, const RingShape& shap
 
 std::unique_ptr<Stepper> make_ring_precision(const Problem& problem, const RingShape& shape,
                                              const Plan& plan) {
-  return plan.vector == VectorTarget::avx512 ? N_AVX3::make_precision(problem, shape, plan)
-                                             : N_AVX2::make_precision(problem, shape, plan);
+  // Eight lanes are whole vectors of AVX-512 in double precision, of AVX2 in single.
+  const bool single = problem.precision == Precision::single_precision;
+  const bool wide = plan.vector == VectorTarget::avx512 && (single || plan.lanes == 8);
+  return wide ? N_AVX3::make_precision(problem, shape, plan)
+              : N_AVX2::make_precision(problem, shape, plan);
 }
 
 }  // namespace bounce

@@ -159,6 +159,21 @@ TEST_P(each_precision, has_the_same_bits_for_all_vectors) {
   }
 }
 
+// 28 columns are dealt to 4 lanes, also where there are 8.
+TEST(precision, takes_columns_that_only_four_lanes_divide) {
+  Scene scene = flying(Precision::compensated);
+  scene.ball.per_ring = 28;
+  scene.law.rest = Rest::geometry;
+  const State first = after(scene, 1000, "avx2").state;
+  scene.time.precision = Precision::double_precision;
+  EXPECT_LE(largest_difference(first, after(scene, 1000, "avx2").state), 1000 * 3.6e-15);
+  scene.time.precision = Precision::compensated;
+  for (const VectorTarget target : available_vectors()) {
+    const State other = after(scene, 1000, std::string(name_of(target))).state;
+    EXPECT_EQ(state_hash(first), state_hash(other)) << name_of(target);
+  }
+}
+
 TEST_P(each_precision, goes_on_from_a_snapshot_with_the_same_bits) {
   for (const char* method : {"listing", "leapfrog"}) {
     Scene scene = touching(GetParam());
