@@ -88,13 +88,10 @@ BondSums load_bonds(const Model& model, const State& s) {
   for (const BondClass& bond : model.classes) {
     rest_energy.push_back(potential(model.law, bond, bond.rest * bond.rest));
   }
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    model.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
-      if (j < i) return;
-      rest += rest_energy[c];
-      loader.add(i, j, model.classes[c], sums);
-    });
-  }
+  model.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
+    rest += rest_energy[c];
+    loader.add(i, j, model.classes[c], sums);
+  });
   for (Load& load : sums.loads) {
     load.net.x += model.gravity.x;
     load.net.y += model.gravity.y;
@@ -112,7 +109,7 @@ RoundingSize of_velocity(double speed, double kick, double gravity, double sum, 
   RoundingSize rounding;
   rounding.add(std::abs(speed) + kick * (std::abs(gravity) + sum), neighbours + 2.0);
   rounding.worst += force_roundings * unit_roundoff * kick * parts;
-  rounding.variance += force_roundings * square(unit_roundoff * kick) * parts_square / 3.0;
+  rounding.variance += force_roundings / 3.0 * square(unit_roundoff * kick) * parts_square;
   return rounding;
 }
 
@@ -126,6 +123,7 @@ void add_stage(const Model& model, const State& s, const Sample& sample, double 
                const std::vector<Load>& loads, StepRounding& step) {
   const auto n = static_cast<double>(s.size());
   const Vec2 velocity{sample.momentum.x / n, sample.momentum.y / n};
+  RoundingSize momentum_x, momentum_y, angular, energy;  // in registers
   for (std::size_t i = 0; i < s.size(); ++i) {
     const Load& load = loads[i];
     const RoundingSize vx = of_velocity(s.vx[i], kick, model.gravity.x, load.sum.x, load.parts.x,
@@ -135,28 +133,35 @@ void add_stage(const Model& model, const State& s, const Sample& sample, double 
     RoundingSize x, y;
     x.add(s.x[i]);
     y.add(s.y[i]);
-    step.momentum_x.add(vx);
-    step.momentum_y.add(vy);
-    carry(step.angular, vx, s.y[i] - sample.centre.y);
-    carry(step.angular, vy, s.x[i] - sample.centre.x);
-    carry(step.angular, x, s.vy[i] - velocity.y);
-    carry(step.angular, y, s.vx[i] - velocity.x);
-    carry(step.energy, vx, s.vx[i]);
-    carry(step.energy, vy, s.vy[i]);
-    carry(step.energy, x, load.net.x);
-    carry(step.energy, y, load.net.y);
+    carry(angular, vx, s.y[i] - sample.centre.y);
+    carry(angular, vy, s.x[i] - sample.centre.x);
+    carry(angular, x, s.vy[i] - velocity.y);
+    carry(angular, y, s.vx[i] - velocity.x);
+    carry(energy, vx, s.vx[i]);
+    carry(energy, vy, s.vy[i]);
+    carry(energy, x, load.net.x);
+    carry(energy, y, load.net.y);
+    momentum_x.add(vx);
+    momentum_y.add(vy);
   }
+  step.momentum_x.add(momentum_x);
+  step.momentum_y.add(momentum_y);
+  step.angular.add(angular);
+  step.energy.add(energy);
 }
 
 void measure_rounding(const Model& model, const State& s, const Sample& sample, Inspection& here) {
+  RoundingSize angular, energy;
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double rx = std::abs(s.x[i] - sample.centre.x), ry = std::abs(s.y[i] - sample.centre.y);
-    here.angular.add(rx * s.vy[i], 2.0);
-    here.angular.add(ry * s.vx[i], 2.0);
-    here.energy.add(0.5 * (s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]), 3.0);
-    here.energy.add(model.gravity.x * s.x[i]);
-    here.energy.add(model.gravity.y * s.y[i]);
+    angular.add(rx * s.vy[i], 2.0);
+    angular.add(ry * s.vx[i], 2.0);
+    energy.add(0.5 * (s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]), 3.0);
+    energy.add(model.gravity.x * s.x[i]);
+    energy.add(model.gravity.y * s.y[i]);
   }
+  here.angular.add(angular);
+  here.energy.add(energy);
   // The centre of mass is rounded, too, and so are the sums and differences of them.
   here.angular.add(sample.centre.x * sample.momentum.y, 2.0);
   here.angular.add(sample.centre.y * sample.momentum.x, 2.0);
@@ -165,9 +170,13 @@ void measure_rounding(const Model& model, const State& s, const Sample& sample, 
 }
 
 void measure_reach(const Model& model, const State& s, Inspection& here) {
+  double fastest = 0.0;  // squared
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    fastest = std::max(fastest, s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]);
+  }
+  here.fastest = std::sqrt(fastest);
   here.nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < s.size(); ++i) {
-    here.fastest = std::max(here.fastest, s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]);
     for (const Wall& wall : model.walls) {
       const double distance = wall_distance(wall, s.x[i], s.y[i]);
       const double size = std::abs(s.x[i]) + std::abs(s.y[i]) + std::abs(wall.offset);
@@ -175,7 +184,6 @@ void measure_reach(const Model& model, const State& s, Inspection& here) {
       here.behind = std::max(here.behind, -distance - mirror_roundings * unit_roundoff * size);
     }
   }
-  here.fastest = std::sqrt(here.fastest);
 }
 
 }  // namespace

@@ -42,19 +42,16 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   for (const BondClass& bond : problem.classes) {
     per_rest_squared.push_back(1.0 / (bond.rest * bond.rest));
   }
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
-      if (j < i) return;  // each bond once
-      const double r2 = squared_distance(state, i, j);
-      energy.add(potential_of(problem.classes[c], r2));
-      const double ratio = r2 * per_rest_squared[c];
-      if (is_smaller(ratio, smallest)) {
-        smallest = ratio;
-        sample.ratio_first = static_cast<std::int64_t>(i);
-        sample.ratio_second = static_cast<std::int64_t>(j);
-      }
-    });
-  }
+  problem.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
+    const double r2 = squared_distance(state, i, j);
+    energy.add(potential_of(problem.classes[c], r2));
+    const double ratio = r2 * per_rest_squared[c];
+    if (is_smaller(ratio, smallest)) {
+      smallest = ratio;
+      sample.ratio_first = static_cast<std::int64_t>(i);
+      sample.ratio_second = static_cast<std::int64_t>(j);
+    }
+  });
   sample.bond = energy.value();
   sample.smallest_ratio = std::sqrt(smallest);
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "verify/powers.hpp"
+
 namespace bounce {
 namespace {
 
@@ -41,19 +43,9 @@ void put(Hessian& hessian, std::size_t row, std::size_t column, const Block& blo
   hessian.insert(r + 1, c + 1) = block.yy;
 }
 
-// Calls visit(i, j, class) for each bond once, i < j.
-template <class Visit>
-void for_each_bond(const Neighbours& bonds, const Visit& visit) {
-  for (std::size_t i = 0; i < bonds.particles(); ++i) {
-    bonds.visit_row(i, [&](std::size_t j, std::size_t bond_class) {
-      if (j > i) visit(i, j, bond_class);
-    });
-  }
-}
-
 // The larger stiffness k of each bond, 0 if both are negative.
 struct Stiffnesses {
-  std::vector<double> of_bond;  // in the order of for_each_bond
+  std::vector<double> of_bond;  // in the order of Neighbours::for_each_bond
   std::vector<double> sum;      // over the bonds of each particle
   StiffnessBound stiffest;      // the bond with the largest k; lambda 0 as yet
 };
@@ -66,13 +58,14 @@ std::optional<Stiffnesses> stiffnesses(const Problem& problem, const State& stat
   double stiffest = -1.0;
   double its_r2 = 0.0;
   double its_rest = 1.0;
-  bool finite = true;
-  for_each_bond(bonds, [&](std::size_t i, std::size_t j, std::size_t c) {
+  double finite = 0.0;  // NaN where anything is not
+  const StiffnessOf stiffness_of(problem.law);
+  bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
     const BondClass& bond = problem.classes[c];
     const double r2 = Separation(state, i, j).r2;
-    const Stiffness both = stiffness(problem.law, bond, r2);
+    const Stiffness both = stiffness_of(bond, r2);
     // A bond to infinity has no stiffness at all: its length must be looked at, too.
-    finite = finite && std::isfinite(r2) && std::isfinite(both.along) && std::isfinite(both.across);
+    finite += 0.0 * (r2 + both.along + both.across);
     const double k = std::max(std::max(both.along, both.across), 0.0);
     all.of_bond.push_back(k);
     all.sum[i] += k;
@@ -84,8 +77,8 @@ std::optional<Stiffnesses> stiffnesses(const Problem& problem, const State& stat
     all.stiffest.first = static_cast<std::int64_t>(i);
     all.stiffest.second = static_cast<std::int64_t>(j);
   });
-  for (const double sum : all.sum) finite = finite && std::isfinite(sum);
-  if (!finite) return std::nullopt;
+  for (const double sum : all.sum) finite += 0.0 * sum;
+  if (std::isnan(finite)) return std::nullopt;
   all.stiffest.ratio = std::sqrt(its_r2) / its_rest;
   return all;
 }
@@ -174,7 +167,7 @@ std::optional<StiffnessBound> stiffness_bound(const Problem& problem, const Stat
   for (std::size_t i = 0; i < sum.size(); ++i) weight[i] = sum[i] / largest + 1e-290;
   std::vector<double> others(sum.size(), 0.0);  // sum of k p(j)
   const double* k = stiff->of_bond.data();
-  for_each_bond(problem.bonds, [&](std::size_t i, std::size_t j, std::size_t) {
+  problem.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t) {
     others[i] += *k * weight[j];
     others[j] += *k * weight[i];
     ++k;

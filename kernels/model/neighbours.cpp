@@ -38,6 +38,19 @@ const BondList& Neighbours::list() const {
   return shared_->list;
 }
 
+const std::vector<Neighbours::Bond>& Neighbours::kept_bonds() const {
+  std::call_once(shared_->bonds_once, [this] {
+    for (std::size_t i = 0; i < particles(); ++i) {
+      visit_row(i, [&](std::size_t j, std::size_t bond_class) {
+        if (j < i) return;
+        shared_->bonds.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+                                  static_cast<std::uint32_t>(bond_class)});
+      });
+    }
+  });
+  return shared_->bonds;
+}
+
 bool Neighbours::operator==(const Neighbours& other) const {
   if (rings_ && other.rings_) return *rings_ == *other.rings_;
   return shared_ == other.shared_ || list() == other.list();

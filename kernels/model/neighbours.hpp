@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "kernels/model/bonds.hpp"
 
@@ -40,11 +41,21 @@ class Neighbours {
       }
       return;
     }
-    const BondList& bonds = shared_->list;
-    const auto end = static_cast<std::size_t>(bonds.start[i + 1]);
-    for (auto e = static_cast<std::size_t>(bonds.start[i]); e < end; ++e) {
-      visit(static_cast<std::size_t>(bonds.neighbour[e]),
-            static_cast<std::size_t>(bonds.bond_class[e]));
+    visit_list_row(shared_->list, i, visit);
+  }
+
+  /// Calls visit(i, j, class) for each bond once, i < j, row by row. A small ball keeps these
+  /// bonds, from the first call on: to read them takes a fifth of the time of computing its rows.
+  template <class Visit>
+  void for_each_bond(const Visit& visit) const {
+    if (particles() <= most_kept) {
+      for (const Bond& bond : kept_bonds()) visit(bond.i, bond.j, bond.bond_class);
+      return;
+    }
+    for (std::size_t i = 0; i < particles(); ++i) {
+      visit_row(i, [&](std::size_t j, std::size_t bond_class) {
+        if (j > i) visit(i, j, bond_class);
+      });
     }
   }
 
@@ -64,9 +75,26 @@ class Neighbours {
   bool operator==(const Neighbours& other) const;
 
  private:
+  struct Bond {
+    std::uint32_t i, j, bond_class;
+  };
+  // Some 36 bytes a particle: as much as a core's second cache holds.
+  static constexpr std::size_t most_kept = 20000;
+  [[nodiscard]] const std::vector<Bond>& kept_bonds() const;
+
+  template <class Visit>
+  static void visit_list_row(const BondList& bonds, std::size_t i, const Visit& visit) {
+    const auto end = static_cast<std::size_t>(bonds.start[i + 1]);
+    for (auto e = static_cast<std::size_t>(bonds.start[i]); e < end; ++e) {
+      visit(static_cast<std::size_t>(bonds.neighbour[e]),
+            static_cast<std::size_t>(bonds.bond_class[e]));
+    }
+  }
+
   struct Shared {
-    std::once_flag once;
+    std::once_flag once, bonds_once;
     BondList list;
+    std::vector<Bond> bonds;
   };
 
   std::optional<Rings> rings_;

@@ -14,9 +14,13 @@
 //
 // Operations: ring's, per_ring columns for as many scenes as lanes.
 //
-// Not taken: several stages at a time within L1, as a tile of ring_tile-inl.hpp (4 to 8 % slower on
-// Zen 3 with 2 to 8 stages: the ghosts cost more than L2); two sectors each of two scenes (lanes
-// would have to be turned, for half of the memory).
+// Not taken: several stages at a time within L1, as a tile of ring_tiles-inl.hpp (4 to 8 % slower
+// on Zen 3 with 2 to 8 stages: the ghosts cost more than L2), or as fronts of 2 to 8 stages that
+// follow each other a chunk of 8 to 24 columns behind, without ghosts (same bits; on Zen 4 with 8
+// lanes, whose scenes take 92 kB, 1 % faster at best: L2 is not what limits); two sectors each of
+// two scenes (lanes would have to be turned, for half of the memory). No free flight: a lane may be
+// at its wall when another is far from its own. So a batch always tests, where `ring` often does
+// not.
 #if defined(BOUNCE_ENSEMBLE_BATCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_ENSEMBLE_BATCH_INL_HPP
 #undef BOUNCE_ENSEMBLE_BATCH_INL_HPP
