@@ -12,7 +12,9 @@
 #include "driver/course_timing.hpp"
 #include "driver/input_error.hpp"
 #include "driver/interrupt.hpp"
+#include "driver/scene_keys.hpp"
 #include "kernels/stepping/method.hpp"
+#include "kernels/stepping/plan.hpp"
 
 namespace bounce {
 namespace {
@@ -73,11 +75,35 @@ std::vector<std::string> finest_methods() {
   return {std::string(all[0]->name), std::string(all[1]->name)};
 }
 
+// Double, and single where it can be sooner.
+//  - Compensated costs more a step than double, and a setting of it could be the cheapest only
+//  below
+//    what double's roundings leave of an error. The pilot's reference is in double and knows the
+//    course no better than that, so such an error is refused before.
+//  - Single with a wall has only the listing's contact, whose error falls but with the first power
+//    of the step: its steps would have to be many times smaller, for a kernel that is not nearly
+//    as much faster.
+//  - A ball that is its own mirror image takes mirror, half the work in double, against twice the
+//    lanes in single of which low parts take a good part again: it is not sooner.
+std::vector<Precision> precisions_worth_trying(const AdviceRequest& request,
+                                               const Sampling& sampling) {
+  std::vector<Precision> worth{Precision::double_precision};
+  Setting setting{"leapfrog", contact_of(request.scene), 1};
+  const Problem problem = problem_of(request.scene, request.initial, setting, sampling);
+  setting.precision = Precision::single_precision;
+  if (make_plan(problem, {"auto", "auto", 1}).kernel != "mirror" &&
+      plan_refusal(request.scene, request.initial, setting, sampling).empty()) {
+    worth.push_back(Precision::single_precision);
+  }
+  return worth;
+}
+
 class Pilot {
  public:
   explicit Pilot(const AdviceRequest& request)
       : request_(request), sampling_(sampling_of(request.scene, looks)) {
     sampling_.exact = false;  // as the run will be
+    precisions_ = precisions_worth_trying(request, sampling_);
   }
 
   // One round at steps this much smaller. False if interrupted.
@@ -116,10 +142,11 @@ class Pilot {
   }
 
  private:
-  [[nodiscard]] std::vector<Setting> settings(const std::string& method, double part,
-                                              double decades) const {
-    auto found = settings_of(request_.scene, request_.initial, method, contact_of(request_.scene),
-                             sampling_, part, decades, per_decade);
+  [[nodiscard]] std::vector<Setting> settings(
+      const std::string& method, const StepSweep& sweep,
+      Precision precision = Precision::double_precision) const {
+    auto found = settings_of(request_.scene, request_.initial,
+                             {method, contact_of(request_.scene), 1, precision}, sampling_, sweep);
     if (found.empty()) {
       throw InputError("there is nothing to advise on: nothing vibrates in this scene");
     }
@@ -132,7 +159,7 @@ class Pilot {
                             request_.threads, [](std::size_t) { return !interrupted(); });
   }
   [[nodiscard]] Setting fine(std::size_t which, double smaller) const {
-    return settings(finest_methods()[which], pilot_part / smaller, 0.0).front();
+    return settings(finest_methods()[which], {pilot_part / smaller, 0.0, per_decade}).front();
   }
   bool find_reference(double smaller) {
     const auto row = run({fine(0, smaller)}, {});
@@ -143,8 +170,11 @@ class Pilot {
     std::vector<Setting> all{fine(1, smaller)};  // the other course, to know the first one by
     const double decades = smaller > 1.0 ? std::log10(finer) : first_decades;
     for (const Method& method : methods()) {
-      const auto more = settings(std::string(method.name), largest_part / smaller, decades);
-      all.insert(all.end(), more.begin(), more.end());
+      for (const Precision precision : precisions_) {
+        const auto more = settings(std::string(method.name),
+                                   {largest_part / smaller, decades, per_decade}, precision);
+        all.insert(all.end(), more.begin(), more.end());
+      }
     }
     // Those of earlier rounds once more, against the better reference.
     for (const AccuracyRow& row : rows_) {
@@ -159,6 +189,7 @@ class Pilot {
 
   const AdviceRequest& request_;
   Sampling sampling_;
+  std::vector<Precision> precisions_;
   CourseRecord reference_;
   double known_to_ = 0.0;
   std::vector<AccuracyRow> rows_;
@@ -190,11 +221,14 @@ std::optional<Advice> advise(const AdviceRequest& request) {
 
 std::string describe(const Advice& advice, const AdviceRequest& request) {
   return fmt::format(
-      "method {}, contact {}, time step {:.6g} s\n"
+      "method {}, contact {}{}, time step {:.6g} s\n"
       "forecast: error of {} {:.1e} {} (asked {:g}; known to {:.0e}), run {:.2g} s on one thread "
       "without output\n"
       "found by {} courses in {:.1f} s",
       advice.setting.method, advice.setting.contact == Contact::resolved ? "resolved" : "listing",
+      advice.setting.precision == Precision::double_precision
+          ? ""
+          : fmt::format(", precision {}", word_of(advice.setting.precision)),
       advice.step, request.observable, advice.error, advice.unit, request.error, advice.known_to,
       advice.seconds, advice.courses, advice.pilot_seconds);
 }
@@ -205,6 +239,9 @@ std::vector<std::string> settings_of(const Advice& advice, const Scene& scene) {
   if (!scene.walls.empty()) {
     settings.emplace_back(advice.setting.contact == Contact::resolved ? "wall.contact=resolved"
                                                                       : "wall.contact=listing");
+  }
+  if (advice.setting.precision != scene.time.precision) {
+    settings.push_back(fmt::format("time.precision={}", word_of(advice.setting.precision)));
   }
   return settings;
 }

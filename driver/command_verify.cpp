@@ -15,6 +15,7 @@
 #include "driver/origin.hpp"
 #include "driver/progress.hpp"
 #include "driver/scene_file.hpp"
+#include "driver/scene_keys.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/equivalence.hpp"
 #include "verify/oracle.hpp"
@@ -49,6 +50,15 @@ std::vector<Case> make_cases(const Options& options) {
     const Scene scene = SceneFile::find(name).scene();
     if (const std::string refusal = Oracle::refusal(scene); !refusal.empty()) {
       throw PlanError(fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
+    }
+    if (scene.time.precision != Precision::double_precision) {
+      throw PlanError(fmt::format(
+          "bounce verify {}: time.precision = {}: allowed is double: the oracle computes in it, "
+          "and "
+          "what a kernel may be off is told by balls disturbed by its roundings, which are not "
+          "those "
+          "of other precisions; how far these are off is measured by bounce accuracy --precisions",
+          name, word_of(scene.time.precision)));
     }
     const std::int64_t whole = scene.steps_until(scene.time.end);
     const std::int64_t steps = options.full ? whole : options.quick ? quick_steps : default_steps;

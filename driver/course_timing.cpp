@@ -37,7 +37,7 @@ std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& in
   }
 }
 
-// Two steppers for each method and contact: in flight, and where the ball is lowest.
+// Two steppers for each method, contact and precision: in flight, and where the ball is lowest.
 class Kinds {
  public:
   Kinds(const Scene& scene, const std::optional<State>& initial, const Sampling& sampling,
@@ -70,7 +70,8 @@ class Kinds {
  private:
   [[nodiscard]] std::size_t number_of(const Setting& setting) const {
     const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Setting& kind) {
-      return kind.method == setting.method && kind.contact == setting.contact;
+      return kind.method == setting.method && kind.contact == setting.contact &&
+             kind.precision == setting.precision;
     });
     return static_cast<std::size_t>(same - kinds_.begin());
   }

@@ -248,4 +248,20 @@ const std::vector<Key<Wall>>& wall_keys() {
   return keys;
 }
 
+std::string_view word_of(Precision precision) {
+  for (const auto& [word, choice] : words_of(precision)) {
+    if (choice == precision) return word;
+  }
+  return {};
+}
+
+std::optional<Precision> precision_of(std::string_view word) {
+  for (const auto& [each, choice] : words_of(Precision{})) {
+    if (word == each) return choice;
+  }
+  return {};
+}
+
+std::string precision_words() { return allowed_for(Precision{}); }
+
 }  // namespace bounce

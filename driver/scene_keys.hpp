@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <toml++/toml.h>
@@ -32,5 +34,12 @@ const std::vector<Key<Scene>>& scene_keys();
 
 /// The keys of one [[wall]].
 const std::vector<Key<Wall>>& wall_keys();
+
+/// A precision as scene files name it: "double", "compensated" or "single".
+std::string_view word_of(Precision precision);
+/// The precision of that name; nothing if there is none.
+std::optional<Precision> precision_of(std::string_view word);
+/// All names, for messages.
+std::string precision_words();
 
 }  // namespace bounce

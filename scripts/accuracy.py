@@ -5,7 +5,6 @@ Writes OUT/accuracy.md (for README) and OUT/accuracy/: each study's accuracy.csv
 origin.json, and a picture as PNG and SVG. From studies of one clean commit only, unless --allow-dirty.
 """
 
-import argparse
 import math
 import os
 import shutil
@@ -14,24 +13,11 @@ import tempfile
 from pathlib import Path
 
 try:
-    from pictures import accuracy
+    from pictures import accuracy, studies
     from pictures.drawing import plt
     from pictures.run import RunError
 except ImportError as missing:
     sys.exit(f"accuracy.py: {missing}; install it with: apt-get install python3-matplotlib")
-
-OBSERVABLES = ("height", "speed", "rebound", "contact_time", "energy_lost", "flattening")
-
-
-def read_arguments():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    add = parser.add_argument
-    add("--runs", type=Path, default=root / "runs", metavar="DIR", help="holds accuracy-SCENE [runs]")
-    add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
-    add("--allow-dirty", action="store_true", help="take studies of changed trees, too")
-    add("scenes", nargs="+", metavar="SCENE")
-    return parser.parse_args()
 
 
 def told(error, bar):
@@ -43,27 +29,28 @@ def row_of(scene, study):
     papers, best = study.papers(), study.origin.get("best")
     if not papers or not best:
         return [scene, "-", "-", "-", "-", "-", told(math.nan, study.bar["error_height"]), "-"]
-    row = next(r for r in study.rows if r["method"] == best["method"] and r["contact"] == best["contact"]
-               and r["dt"] == best["dt"])
+    names = ("method", "contact", "precision", "dt")
+    row = next(row for row in study.rows if all(row[name] == best[name] for name in names))
+    setting = accuracy.label_of(*(best[name] for name in names[:3]))
     bar = study.bar["error_height"]
     return [scene, f"{study.origin['oracle_seconds']:.3g}", told(papers["error_height"], bar),
-            f"{best['method']}, {best['contact']}, {best['dt']:.3g}", f"{row['seconds']:.2g}",
+            f"{setting}, {best['dt']:.3g}", f"{row['seconds']:.2g}",
             told(row["error_height"], bar), f"{bar:.1e}",
             f"**{study.origin['oracle_seconds'] / row['seconds']:.0f}**"]
 
 
-def markdown(studies):
+def markdown(found):
     head = ["scene", "paper's program, s", "its error, cm", "cheapest setting as good: method, contact, Δt",
             "run, s", "its error, cm", "known to, cm", "times sooner"]
-    lines = [head, ["---"] * len(head), *(row_of(scene, study) for scene, study in studies.items())]
-    some = next(iter(studies.values())).origin
+    lines = [head, ["---"] * len(head), *(row_of(scene, study) for scene, study in found.items())]
+    some = next(iter(found.values())).origin
     return "\n".join([
         "# Error against run time\n",
         "The paper's program is the listing's scheme and contact with Δt = 1e-6 s on the oracle. As good: in each "
-        f"of {', '.join(OBSERVABLES)}, no further from the reference. Errors shown are those of the height of the "
-        "centre at the end. One core; known to: what the two references differ by.\n",
+        f"of {', '.join(studies.OBSERVABLES)}, no further from the reference. Errors shown are those of the height "
+        "of the centre at the end. One core; known to: what the two references differ by.\n",
         "".join("| " + " | ".join(line) + " |\n" for line in lines),
-        "".join(f"![{scene}](results/accuracy/{scene}.png)\n" for scene in list(studies)[:2]),
+        "".join(f"![{scene}](results/accuracy/{scene}.png)\n" for scene in list(found)[:2]),
         f"Made by `scripts/accuracy.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}; all rows, and "
         "the other pictures: `results/accuracy/`.",
         "",
@@ -71,14 +58,10 @@ def markdown(studies):
 
 
 def make(arguments, folder):
-    studies = {}
+    found = studies.read_studies(arguments, "accuracy")
     (folder / "accuracy").mkdir()
-    for scene in arguments.scenes:
+    for scene, study in found.items():
         source = arguments.runs / f"accuracy-{scene}"
-        studies[scene] = study = accuracy.read_study(source)
-        first = next(iter(studies.values())).origin["commit"]
-        if not arguments.allow_dirty and (study.origin["commit"] != first or "dirty" in first or first == "unknown"):
-            raise RunError(f"{source}: commit {study.origin['commit']}: allowed is one clean commit for all")
         place = folder / "accuracy" / scene
         place.mkdir()
         for name in ("accuracy.csv", "table.txt", "origin.json", "scene.toml"):
@@ -88,11 +71,11 @@ def make(arguments, folder):
             figure.savefig(folder / "accuracy" / f"{scene}.{kind}",
                            metadata={"Date": None} if kind == "svg" else None)
         plt.close(figure)
-    (folder / "accuracy.md").write_text(markdown(studies), encoding="utf-8")
+    (folder / "accuracy.md").write_text(markdown(found), encoding="utf-8")
 
 
 def main():
-    arguments = read_arguments()
+    arguments = studies.read_arguments(__doc__.splitlines()[0], "accuracy")
     arguments.out.mkdir(parents=True, exist_ok=True)
     partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
     try:

@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-FORECAST = re.compile(r"method ([\w-]+), contact (\w+), time step (\S+) s\n"
+FORECAST = re.compile(r"method ([\w-]+), contact (\w+(?:, precision \w+)?), time step (\S+) s\n"
                       r"forecast: error of height (\S+) cm .*known to (\S+)\), run (\S+) s")
 
 

@@ -15,10 +15,12 @@
 namespace bounce {
 namespace {
 
+const PlanRequest one_thread{"auto", "auto", 1};
+
 AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                 const Sampling& sampling, const CourseRecord& reference) {
   const Problem problem = problem_of(scene, initial, setting, sampling);
-  const Plan plan = make_plan(problem, {"auto", "auto", 1});
+  const Plan plan = make_plan(problem, one_thread);
   AccuracyRow row;
   row.setting = setting;
   row.step = problem.step;
@@ -55,25 +57,37 @@ Problem problem_of(const Scene& scene, const std::optional<State>& initial, cons
   Scene chosen = scene;
   chosen.time.method = setting.method;
   chosen.time.step = sampling.every / static_cast<double>(setting.steps_a_sample);
+  chosen.time.precision = setting.precision;
   for (Wall& wall : chosen.walls) wall.contact = setting.contact;
   Problem problem = make_problem(chosen, initial);
   if (sampling.exact) problem.step = chosen.time.step;
   return problem;
 }
 
+std::string plan_refusal(const Scene& scene, const std::optional<State>& initial,
+                         const Setting& setting, const Sampling& sampling) {
+  try {
+    static_cast<void>(make_plan(problem_of(scene, initial, setting, sampling), one_thread));
+  } catch (const PlanError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>& initial,
-                                 const std::string& method, Contact contact,
-                                 const Sampling& sampling, double part, double decades,
-                                 int per_decade) {
-  const Problem problem = problem_of(scene, initial, {method, contact, 1}, sampling);
+                                 const Setting& kind, const Sampling& sampling,
+                                 const StepSweep& sweep) {
+  const Problem problem = problem_of(scene, initial, kind, sampling);
   const auto fastest = fastest_vibration(problem, problem.initial);
   if (!fastest || !(fastest->omega > 0.0)) return {};
-  const double fewest = sampling.every / (part * stability_limit(*problem.method) / fastest->omega);
+  const double fewest =
+      sampling.every / (sweep.part * stability_limit(*problem.method) / fastest->omega);
   std::vector<Setting> settings;
-  const int count = static_cast<int>(std::lround(decades * per_decade));
+  const int count = static_cast<int>(std::lround(sweep.decades * sweep.per_decade));
   for (int k = 0; k <= count; ++k) {
-    const double n = std::ceil(fewest * std::pow(10.0, static_cast<double>(k) / per_decade));
-    const Setting setting{method, contact, std::max<std::int64_t>(1, std::llround(n))};
+    const double n = std::ceil(fewest * std::pow(10.0, static_cast<double>(k) / sweep.per_decade));
+    Setting setting = kind;
+    setting.steps_a_sample = std::max<std::int64_t>(1, std::llround(n));
     if (settings.empty() || !(settings.back() == setting)) settings.push_back(setting);
   }
   return settings;

@@ -26,6 +26,7 @@ struct Setting {
   std::string method;
   Contact contact = Contact::listing;
   std::int64_t steps_a_sample = 1;
+  Precision precision = Precision::double_precision;
 
   bool operator==(const Setting&) const = default;
 };
@@ -56,23 +57,35 @@ struct AccuracyRow {
   std::int64_t steps = 0;  ///< of the whole course
   std::int64_t evaluations = 0;  ///< of the force
   std::string kernel;
+  std::string note;     ///< of a baseline that was not finished: why
   CourseRecord record;  ///< without the state before the impact
   CourseErrors errors;
 };
 
-/// The scene by a setting. Throws SceneError.
+/// The scene by a setting, whatever the scene itself says of method, step, contact and precision.
+/// Throws SceneError.
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                    const Sampling& sampling);
 
 /// Number of rings as measure_shape wants it: 0 for a ball without.
 int rings_of(const Scene& scene);
 
-/// The largest steps first: whole parts of the interval from `part` of the method's stable step at
-/// the start down over `decades`, `per_decade` of them each. Empty if nothing vibrates.
+/// Why no kernel can run the scene by a setting, whatever its step; "" if one can.
+std::string plan_refusal(const Scene& scene, const std::optional<State>& initial,
+                         const Setting& setting, const Sampling& sampling);
+
+/// Steps of a sweep, as parts of the method's stable step at the start.
+struct StepSweep {
+  double part = 0.9;     ///< the largest
+  double decades = 3.0;  ///< from there down
+  int per_decade = 3;
+};
+
+/// `kind` at each step of a sweep, the largest first, each a whole part of the sampling interval.
+/// Empty if nothing vibrates.
 std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>& initial,
-                                 const std::string& method, Contact contact,
-                                 const Sampling& sampling, double part, double decades,
-                                 int per_decade);
+                                 const Setting& kind, const Sampling& sampling,
+                                 const StepSweep& sweep);
 
 /// Runs all settings; a row each, in their order, whatever the number of threads (0: one a core).
 /// A course whose state is not finite has infinite errors; so have all if the reference has no

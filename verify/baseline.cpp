@@ -1,8 +1,10 @@
 #include "verify/baseline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "verify/baseline_gsl.hpp"
 #include "verify/conservative.hpp"
@@ -18,6 +20,12 @@ struct OutOfTime {};
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g s", seconds);
+  return text.data();
 }
 
 constexpr std::string_view greenspan = "Greenspan, J. Comput. Phys. 56 (1984) 28";
@@ -54,7 +62,7 @@ struct Course {
   BaselineWork work;
   std::vector<State> states;
   double seconds = 0.0;
-  bool finished = false;
+  std::string unfinished;  // why; "" if it was finished
 };
 
 Course solve_once(const Baseline& baseline, const Problem& problem, double parameter,
@@ -71,9 +79,10 @@ Course solve_once(const Baseline& baseline, const Problem& problem, double param
     course.work = baseline.solve(
         problem, parameter, times,
         [&](double, const State& state) { course.states.push_back(state); }, in_time);
-    course.finished = true;
   } catch (const OutOfTime&) {
-  } catch (const ReferenceError&) {
+    course.unfinished = "not finished within " + seconds_text(most_seconds);
+  } catch (const ReferenceError& error) {
+    course.unfinished = error.what();
   }
   course.seconds = seconds_since(begin);
   return course;
@@ -89,16 +98,17 @@ AccuracyRow row_of(const Baseline& baseline, const Scene& scene, const Problem& 
   row.tolerance = baseline.adaptive() ? parameter : 0.0;
   row.steps = course.work.steps;
   row.evaluations = course.work.evaluations;
-  row.step = !baseline.adaptive() ? parameter
-             : course.finished    ? times.back() / static_cast<double>(row.steps)
-                                  : std::nan("");
+  row.step = !baseline.adaptive()        ? parameter
+             : course.unfinished.empty() ? times.back() / static_cast<double>(row.steps)
+                                         : std::nan("");
   row.kernel = "baseline";
+  row.note = course.unfinished;
   CourseGauge gauge(problem, rings_of(scene), reference.free_samples);
   for (std::size_t k = 0; k < course.states.size(); ++k) {
     if (!gauge.add(times[k], course.states[k])) break;
   }
   row.record = gauge.result();
-  row.record.finite = row.record.finite && course.finished;
+  row.record.finite = row.record.finite && course.unfinished.empty();
   row.errors = errors_of(row.record, reference);
   return row;
 }
@@ -128,6 +138,8 @@ std::span<const Baseline> baselines() {
       {"gsl-rkf45", gsl, BaselineContact::located, solve_rkf45},
       {"gsl-rk8pd", gsl, BaselineContact::located, solve_rk8pd},
       {"gsl-msadams", gsl, BaselineContact::located, solve_msadams},
+      {"gsl-msbdf", gsl, BaselineContact::located, solve_msbdf},
+      {"gsl-bsimp", gsl, BaselineContact::located, solve_bsimp},
   };
   return all;
 }
@@ -147,20 +159,24 @@ std::vector<BaselineRow> measure_baseline(const Baseline& baseline, const Scene&
   const Problem problem = problem_of(scene, initial, {"leapfrog", contact, 1}, sampling);
   const std::vector<double> times = times_of(sampling);
   std::vector<BaselineRow> rows;
-  for (const double parameter : parameters_of(baseline, problem, sampling, sweep.values)) {
+  const auto parameters = parameters_of(baseline, problem, sampling, sweep.values);
+  for (const double parameter : parameters) {
     const auto once = [&] {
       return solve_once(baseline, problem, parameter, times, sweep.most_seconds, tick);
     };
     const Course course = once();
     std::vector<double> seconds{course.seconds};
     double spent = course.seconds;
-    for (; course.finished && spent < sweep.least_seconds; spent += seconds.back()) {
+    for (; course.unfinished.empty() && spent < sweep.least_seconds; spent += seconds.back()) {
       seconds.push_back(once().seconds);
     }
     std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
     rows.push_back({row_of(baseline, scene, problem, parameter, course, times, reference),
                     seconds[seconds.size() / 2]});
-    if (!course.finished) break;
+    if (course.unfinished.empty()) continue;
+    // A smaller parameter takes longer.
+    if (rows.size() < parameters.size()) rows.back().row.note += "; the rest was not begun";
+    break;
   }
   return rows;
 }

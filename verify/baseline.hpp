@@ -55,8 +55,8 @@ struct BaselineRow {
 
 /// Sweeps one baseline, one course after another. Steps are whole parts of the sampling interval,
 /// from 4 times the edge of explicit methods at the start down by 2; tolerances 1e-4 and down by
-/// 100. Of a course that was not finished the errors are infinite. `tick` is called often; what it
-/// throws comes out.
+/// 100. Of a course that was not finished the errors are infinite, and its row says why; the rest
+/// is then not begun. `tick` is called often; what it throws comes out.
 std::vector<BaselineRow> measure_baseline(const Baseline& baseline, const Scene& scene,
                                           const std::optional<State>& initial,
                                           const Sampling& sampling, const CourseRecord& reference,

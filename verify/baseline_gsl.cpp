@@ -31,4 +31,14 @@ BaselineWork solve_msadams(const Problem& problem, double tolerance, std::span<c
   return solve(gsl_odeiv2_step_msadams, problem, tolerance, times, visit, tick);
 }
 
+BaselineWork solve_msbdf(const Problem& problem, double tolerance, std::span<const double> times,
+                         const ReferenceVisitor& visit, const std::function<void()>& tick) {
+  return solve(gsl_odeiv2_step_msbdf, problem, tolerance, times, visit, tick);
+}
+
+BaselineWork solve_bsimp(const Problem& problem, double tolerance, std::span<const double> times,
+                         const ReferenceVisitor& visit, const std::function<void()>& tick) {
+  return solve(gsl_odeiv2_step_bsimp, problem, tolerance, times, visit, tick);
+}
+
 }  // namespace bounce

@@ -55,12 +55,15 @@ class Resting {
   /// have: all of it if it sticks, the normal part if it slides.
   template <class Real>
   void hold(Real* x, Real* y) const {
-    for (const std::size_t i : particles_) {
-      const auto nx = static_cast<Real>(on(i).normal.x), ny = static_cast<Real>(on(i).normal.y);
-      const Real along = slides(i) ? ny * x[i] - nx * y[i] : Real(0);
-      x[i] = ny * along;
-      y[i] = -nx * along;
-    }
+    for (const std::size_t i : particles_) hold(i, x[i], y[i]);
+  }
+  /// The same for a vector of particle i alone, which must be resting.
+  template <class Real>
+  void hold(std::size_t i, Real& x, Real& y) const {
+    const auto nx = static_cast<Real>(on(i).normal.x), ny = static_cast<Real>(on(i).normal.y);
+    const Real along = slides(i) ? ny * x - nx * y : Real(0);
+    x = ny * along;
+    y = -nx * along;
   }
 
  private:

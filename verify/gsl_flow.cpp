@@ -2,8 +2,13 @@
 
 #include <gsl/gsl_errno.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
+#include <string>
+
+#include "verify/spectrum.hpp"
 
 namespace bounce {
 namespace {
@@ -43,26 +48,40 @@ bool is_multistep(const gsl_odeiv2_step_type* type) {
   return type == gsl_odeiv2_step_msadams || type == gsl_odeiv2_step_msbdf;
 }
 
+bool is_stiff(const gsl_odeiv2_step_type* type) {
+  return type == gsl_odeiv2_step_msbdf || type == gsl_odeiv2_step_bsimp;
+}
+
+// Of the stiff methods, whose matrices are then of 128 MB each.
+constexpr std::size_t most_particles = 1000;
+
 constexpr double first_step = 1e-6;  // s; for the driver, which takes none itself
 
 }  // namespace
 
 GslFlow::GslFlow(const Problem& problem, const gsl_odeiv2_step_type* type, double tolerance,
                  std::function<void()> tick)
-    : forces_(problem),
-      system_{derivative, nullptr, 4 * problem.initial.size(), this},
+    : problem_(&problem),
+      forces_(problem),
+      system_{derivative, jacobian, 4 * problem.initial.size(), this},
       tick_(std::move(tick)),
       end_(system_.dimension),
       error_(system_.dimension),
       start_rate_(system_.dimension),
-      end_rate_(system_.dimension) {
+      end_rate_(system_.dimension),
+      part_rate_(system_.dimension) {
+  if (is_stiff(type) && problem.initial.size() > most_particles) {
+    throw ReferenceError("GSL's stiff steppers keep dense matrices: at most " +
+                         std::to_string(most_particles) + " particles");
+  }
   const std::vector<double> scale = scale_of(problem);
   driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, first_step, tolerance, 0.0, 1.0,
                                                    0.0, scale.data()));
-  if (is_multistep(type)) {
-    cutter_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, system_.dimension));
-  }
-  if (!driver_ || (is_multistep(type) && !cutter_)) throw std::bad_alloc();
+  const bool is_cut = is_multistep(type) || is_stiff(type);
+  if (is_cut) cutter_.reset(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, system_.dimension));
+  if (!driver_ || (is_cut && !cutter_)) throw std::bad_alloc();
+  const double omega = reference_frequency(problem);
+  cutters_step_ = omega > 0.0 ? 1.0 / omega : std::numeric_limits<double>::infinity();
 }
 
 void GslFlow::begin(const std::vector<double>& state, const Resting& resting) {
@@ -77,7 +96,7 @@ double GslFlow::attempt(double left) {
   // No sliver at the end.
   double h = next_ >= left ? left : std::min(next_, left / 2);
   for (;;) {
-    const bool made = take(*driver_->s, h);
+    const bool made = take(h);
     double proposed = h;
     const int verdict = gsl_odeiv2_control_hadjust(driver_->c, driver_->s, end_.data(),
                                                    error_.data(), end_rate_.data(), &proposed);
@@ -101,7 +120,11 @@ double GslFlow::attempt(double left) {
 
 void GslFlow::retake(double h) {
   cut_ = cutter_ != nullptr;
-  take(cutter_ ? *cutter_ : *driver_->s, h);
+  if (cut_) {
+    cut(h);
+  } else {
+    take(h);
+  }
 }
 
 void GslFlow::accept() {
@@ -112,11 +135,23 @@ void GslFlow::accept() {
 }
 
 // False if the step's own equations (of an implicit method) have not been solved.
-bool GslFlow::take(gsl_odeiv2_step& step, double h) {
+bool GslFlow::take(double h) {
   end_ = start_;
   length_ = h;
-  return gsl_odeiv2_step_apply(&step, time_, h, end_.data(), error_.data(), start_rate_.data(),
+  return gsl_odeiv2_step_apply(driver_->s, time_, h, end_.data(), error_.data(), start_rate_.data(),
                                end_rate_.data(), &system_) == GSL_SUCCESS;
+}
+
+void GslFlow::cut(double h) {
+  const double parts = std::max(1.0, std::ceil(h / cutters_step_));
+  end_ = start_;
+  end_rate_ = start_rate_;
+  length_ = h;
+  for (double part = 0.0; part < parts; ++part) {
+    part_rate_ = end_rate_;
+    gsl_odeiv2_step_apply(cutter_.get(), time_ + h * (part / parts), h / parts, end_.data(),
+                          error_.data(), part_rate_.data(), end_rate_.data(), &system_);
+  }
 }
 
 int GslFlow::derivative(double /*time*/, const double* state, double* rate, void* self) {
@@ -128,6 +163,34 @@ int GslFlow::derivative(double /*time*/, const double* state, double* rate, void
   std::copy(s.vx, s.vx + 2 * n, r.x);
   flow.forces_(s.x, s.y, r.vx, r.vy);
   flow.resting_->hold(r.vx, r.vy);
+  return GSL_SUCCESS;
+}
+
+// Rows and columns as a state: x, y, vx, vy, n each.
+int GslFlow::jacobian(double /*time*/, const double* state, double* by_state, double* by_time,
+                      void* self) {
+  const auto& flow = *static_cast<const GslFlow*>(self);
+  const std::size_t n = flow.forces_.particles(), all = 4 * n;
+  std::fill(by_state, by_state + all * all, 0.0);
+  std::fill(by_time, by_time + all, 0.0);
+  for (std::size_t k = 0; k < 2 * n; ++k) by_state[k * all + 2 * n + k] = 1.0;
+  State places(n);
+  std::copy(state, state + n, places.x.begin());
+  std::copy(state + n, state + 2 * n, places.y.begin());
+  const Hessian hessian = bond_hessian(*flow.problem_, places);
+  const auto place = [n](Eigen::Index k) {  // of x1, y1, x2, ... in x1, x2, ..., y1, ...
+    return static_cast<std::size_t>(k % 2) * n + static_cast<std::size_t>(k / 2);
+  };
+  for (Eigen::Index row = 0; row < hessian.outerSize(); ++row) {
+    for (Hessian::InnerIterator entry(hessian, row); entry; ++entry) {
+      by_state[(2 * n + place(row)) * all + place(entry.col())] = -entry.value();
+    }
+  }
+  for (const std::size_t i : flow.resting_->particles()) {
+    double* const x = by_state + (2 * n + i) * all;
+    double* const y = by_state + (3 * n + i) * all;
+    for (std::size_t k = 0; k < 2 * n; ++k) flow.resting_->hold(i, x[k], y[k]);
+  }
   return GSL_SUCCESS;
 }
 

@@ -52,6 +52,7 @@ class PlanError : public std::invalid_argument {
 struct StepperMemory {
   double a_particle;
   double an_entry;
+  double low_parts = 0.0;  ///< a particle, on top, in compensated precision
 };
 
 /// One kernel, as the registry knows it.

@@ -82,7 +82,7 @@ KernelEntry ring_entry() {
   return {.name = "ring",
           .description = "rings with constant offsets: each bond once, no index",
           .automatic = true,
-          .memory = {.a_particle = 32.0, .an_entry = 0.0},
+          .memory = {.a_particle = 32.0, .an_entry = 0.0, .low_parts = 32.0},
           .prepare = prepare_ring,
           .make = make,
           .other_precisions = true};

@@ -14,7 +14,10 @@ COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c", "#8
 STYLES = {"resolved": {"marker": "o", "markersize": 3},
           "listing": {"marker": "x", "markersize": 4, "linestyle": ":"},
           "located": {"marker": "s", "markersize": 3, "linestyle": "--"}}
-TEXTS = ("method", "contact", "kernel")
+# Over the contact's, for what is not in double precision.
+PRECISIONS = {"double": {}, "compensated": {"marker": "^", "markersize": 4, "linestyle": "-."},
+              "single": {"marker": "v", "markersize": 4, "linestyle": (0, (5, 1, 1, 1, 1, 1))}}
+TEXTS = ("method", "contact", "precision", "kernel", "note")
 PANELS = {
     "position": "largest position error\njust before the impact, cm",
     "height": "height of the centre\nat the end, cm",
@@ -34,16 +37,16 @@ class Study:
     origin: dict
 
     def lines(self):
-        """(method, contact) to its rows."""
+        """(method, contact, precision) to its rows."""
         found = {}
         for row in self.rows:
-            found.setdefault((row["method"], row["contact"]), []).append(row)
+            found.setdefault((row["method"], row["contact"], row["precision"]), []).append(row)
         return found
 
     def papers(self):
         """The paper's program: listing, its contact, 1e-6 s; None without it."""
         return next((row for row in self.rows if row["method"] == row["contact"] == "listing"
-                     and abs(row["dt"] / 1e-6 - 1.0) < 1e-9), None)
+                     and row["precision"] == "double" and abs(row["dt"] / 1e-6 - 1.0) < 1e-9), None)
 
 
 def read_study(folder):
@@ -59,20 +62,30 @@ def read_study(folder):
         origin = json.loads((folder / "origin.json").read_text())
     except (OSError, TypeError, ValueError) as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
-    wanted = ("dt", "seconds", "evaluations", *(f"error_{name}" for name in PANELS))
+    wanted = ("precision", "dt", "seconds", "evaluations", *(f"error_{name}" for name in PANELS))
     if len(rows) < 2 or rows[0]["method"] != "reference" or any(key not in rows[0] for key in wanted):
         raise RunError(f"{path}: no rows of bounce accuracy")
     return Study(rows[0], rows[1:], origin)
 
 
+def style_of(contact, precision):
+    return STYLES[contact] | PRECISIONS[precision]
+
+
+def label_of(method, contact, precision):
+    return f"{method}, {contact}" + ("" if precision == "double" else f", {precision}")
+
+
 def draw_panel(axes, study, cost, name, colours):
     key = f"error_{name}"
-    for (method, contact), rows in study.lines().items():
+    for (method, contact, precision), all_rows in study.lines().items():
         # Beyond the edge of stability, or where the error is 0, there is nothing to show.
-        rows = sorted((r for r in rows if math.isfinite(r[key]) and r[key] > 0), key=lambda r: r[cost])
-        style = STYLES[contact]
-        axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0,
-                  label=f"{method}, {contact}", **style)
+        rows = sorted((r for r in all_rows if math.isfinite(r[key]) and r[key] > 0), key=lambda r: r[cost])
+        label = label_of(method, contact, precision)
+        if not any(r["error_height"] < math.inf for r in all_rows):
+            label += " (not finished)"
+        axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0, label=label,
+                  **style_of(contact, precision))
     papers = study.papers()
     if papers:
         oracle = study.origin.get("oracle_seconds") or papers["seconds"]
@@ -106,8 +119,10 @@ def figure_of(study, title):
     """A row of panels over run time, one over evaluations."""
     methods = list(dict.fromkeys(row["method"] for row in study.rows))
     colours = {method: COLOURS[i % len(COLOURS)] for i, method in enumerate(methods)}
-    figure, panels = plt.subplots(len(PANELS), 2, figsize=(10.0, 2.6 * len(PANELS)), layout="constrained",
-                                  sharey="row")
+    # The last row is the legend's.
+    figure, panels = plt.subplots(len(PANELS) + 1, 2, figsize=(10.0, 2.6 * len(PANELS) + 1.6), layout="constrained",
+                                  sharey="row", gridspec_kw={"height_ratios": [2.6] * len(PANELS) + [1.6]})
+    *panels, below = panels
     for row, (name, label) in zip(panels, PANELS.items()):
         for axes, cost in zip(row, ("seconds", "evaluations")):
             draw_panel(axes, study, cost, name, colours)
@@ -115,6 +130,10 @@ def figure_of(study, title):
         row[0].set_ylabel(label)
     panels[-1][0].set_xlabel("run time on one thread, s")
     panels[-1][1].set_xlabel("force evaluations (short lines: orders 1, 2, 4, 6)")
-    panels[-1][0].legend(loc="upper left", bbox_to_anchor=(0.0, -0.25), ncols=3, frameon=False, fontsize=8)
+    for axes in below:
+        axes.axis("off")
+    legend = below[0].legend(*panels[-1][0].get_legend_handles_labels(), loc="upper left", ncols=3, frameon=False,
+                             fontsize=8)
+    legend.set_in_layout(False)  # it is wider than its panel
     drawing.set_caption(figure, title)
     return figure

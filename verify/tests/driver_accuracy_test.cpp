@@ -60,8 +60,9 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
   const fs::path at = folder_ / "runs/example-1-accuracy";
   const std::string csv = contents(at / "accuracy.csv");
   EXPECT_NE(csv.find("\nreference,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\nlisting,listing,1e-06,,100000,100000,mirror,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\nleapfrog,resolved,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nlisting,listing,double,1e-06,,100000,100000,mirror,"), std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find("\nleapfrog,resolved,double,"), std::string::npos) << csv;
   EXPECT_EQ(contents(at / "table.txt") + "\nfiles: runs/example-1-accuracy\n", out());
   EXPECT_NE(out().find("times sooner"), std::string::npos) << out();
   EXPECT_NE(contents(at / "origin.json").find("\"oracle_seconds\": "), std::string::npos);
@@ -73,11 +74,50 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
 TEST_F(DriverAccuracyTest, HasTheBaselinesBesideTheMethods) {
   ASSERT_EQ(run(impact + "--methods conservative,gsl-rkf45 --quick"), 0) << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
-  for (const char* row : {"\nconservative,listing,", "\nconservative,resolved,", ",1e-04,",
-                          "\ngsl-rkf45,located,", ",1e-06,", ",baseline,"}) {
+  for (const char* row : {"\nconservative,listing,double,", "\nconservative,resolved,double,",
+                          ",1e-04,", "\ngsl-rkf45,located,double,", ",1e-06,", ",baseline,"}) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
   EXPECT_EQ(csv.find("\nleapfrog,"), std::string::npos) << csv;
+}
+
+// Double for all methods; compensated and single beside it for the simplest and the highest order.
+TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
+  ASSERT_EQ(run(impact + "--methods leapfrog,yoshida-4,blanes-moan-6 --quick"), 0) << err();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  for (const char* row :
+       {"\nleapfrog,listing,double,", "\nleapfrog,resolved,double,",
+        "\nleapfrog,resolved,compensated,", "\nleapfrog,listing,single,",
+        "\nblanes-moan-6,resolved,compensated,", "\nblanes-moan-6,listing,single,",
+        "\nyoshida-4,resolved,double,", ",ring,", ",mirror,"}) {
+    EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
+  }
+  for (const char* row : {"\nyoshida-4,resolved,compensated,", "\nyoshida-4,listing,",
+                          "\nleapfrog,listing,compensated,", ",resolved,single,"}) {
+    EXPECT_EQ(csv.find(row), std::string::npos) << row << csv;
+  }
+}
+
+TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
+  ASSERT_EQ(
+      run(impact + "--methods yoshida-4 --precisions compensated --steps 1e-4,2.5e-5 --quick"), 0)
+      << err();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  EXPECT_NE(csv.find("\nyoshida-4,resolved,compensated,0.0001,,1000,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nyoshida-4,resolved,compensated,2.5e-05,,4000,"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find("\nyoshida-4,resolved,double,"), std::string::npos) << csv;
+}
+
+TEST_F(DriverAccuracyTest, SaysWhatNoKernelCanRun) {
+  const std::string inclined = impact + "--set wall.normal='[0.6,0.8]' --set wall.offset=-2 ";
+  ASSERT_EQ(run(inclined + "--methods leapfrog --quick --precisions double,single"), 0) << err();
+  const std::string text = "left out: leapfrog, single: ";
+  EXPECT_NE(out().find(text), std::string::npos) << out();
+  EXPECT_NE(out().find("one floor"), std::string::npos) << out();
+  EXPECT_EQ(contents(folder_ / "runs/example-1-accuracy/accuracy.csv").find(",single,"),
+            std::string::npos);
+  EXPECT_NE(contents(folder_ / "runs/example-1-accuracy/origin.json").find("one floor"),
+            std::string::npos);
 }
 
 TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
@@ -87,6 +127,11 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
     EXPECT_FALSE(fs::exists(folder_ / "bad")) << words;
   };
   refused("example-1 --methods euler", "--methods euler: unknown; allowed is listing");
+  refused("example-1 --precisions half",
+          "--precisions half: unknown; allowed is \"double\", \"compensated\" or \"single\"");
+  refused("example-1 --steps 1e-4,3e-3", "--steps 0.003: allowed is a whole part of 0.01 s");
+  refused("example-1 --steps 0", "--steps 0: allowed is a whole part");
+  refused("example-1 --steps 0.02", "--steps 0.02: allowed is a whole part");
   refused("example-1 --every 0", "--every 0: allowed is above 0");
   refused("example-1 --every 14", "a tenth of time.end = 15");
   refused("example-1 --decades nan", "--decades nan: allowed is above 0");

@@ -120,6 +120,7 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   const fs::path at = folder_ / "runs/example-2";
   EXPECT_EQ(entry(at / "run.json", "status"), "\"complete\"");
   EXPECT_EQ(entry(at / "run.json", "steps"), "20000");
+  EXPECT_EQ(entry(at / "run.json", "precision"), "\"double\"");
   EXPECT_EQ(entry(at / "run.json", "bonds"), "840");
   const std::string hash = entry(at / "run.json", "state_hash");
   EXPECT_EQ(hash.size(), 18U);
@@ -203,6 +204,26 @@ double number(const std::string& json, const std::string& key) {
   const char* text = json.c_str() + at + key.size() + 4;
   const double value = std::strtod(text, &end);
   return end == text ? std::nan("") : value;
+}
+
+TEST_F(DriverRunTest, RecordsThePrecision) {
+  ASSERT_EQ(
+      run({"run", "example-2", "--steps", "1000", "--set", "time.precision=single", "--out", "r"}),
+      0)
+      << err();
+  EXPECT_EQ(entry(folder_ / "r/run.json", "precision"), "\"single\"");
+  EXPECT_NE(contents(folder_ / "r/run.json").find("\"kernel\": \"ring\""), std::string::npos);
+}
+
+// The oracle knows one, and what is allowed is told by its roundings.
+TEST_F(DriverRunTest, VerifyRefusesOtherPrecisions) {
+  for (const std::string precision : {"compensated", "single"}) {
+    std::ofstream(folder_ / "mine.toml") << "[time]\nprecision = \"" << precision << "\"\n";
+    EXPECT_EQ(run({"verify", "mine.toml", "--quick"}), 2);
+    EXPECT_NE(err().find("time.precision = " + precision + ": allowed is double"),
+              std::string::npos)
+        << err();
+  }
 }
 
 TEST_F(DriverRunTest, ADiscFallsAndBounces) {

@@ -129,7 +129,7 @@ const Fine& flight() {
 // of the force, as if a bond were off by some 3 half ULP of its 0.26 to 1 cm, not of 10 cm: ten
 // times less at least; and it drives a vibration of omega dt = 5e-3, which turns on before it adds
 // up: another 200 / 3 times. 300 is half of that.
-TEST(precision, low_parts_take_the_rounding_of_positions_away) {
+TEST(Precision, LowPartsTakeTheRoundingOfPositionsAway) {
   const Error plain = error_of(after(flying(Precision::double_precision), flight_steps), flight());
   const Error low = error_of(after(flying(Precision::compensated), flight_steps), flight());
   EXPECT_GE(plain.largest, std::sqrt(flight_steps) * 5e-16);
@@ -140,7 +140,7 @@ TEST(precision, low_parts_take_the_rounding_of_positions_away) {
 // H and G are rounded by half an ULP each, so R0 by one half: a ball of 7 cm swings about a size
 // that is off by 7 cm times that, and by twice that in all. R^2 and the law round some four times,
 // other ways for each bond: as much again.
-TEST(precision, single_is_off_by_the_rounding_of_its_forces) {
+TEST(Precision, SingleIsOffByTheRoundingOfItsForces) {
   const Error single = error_of(after(flying(Precision::single_precision), flight_steps), flight());
   EXPECT_LE(single.largest, 4.0 * 7.0 * half_ulp);
   // Bonds push both ends alike, so the centre is off only by the rounding of dt, v dt and g dt. It
@@ -149,9 +149,9 @@ TEST(precision, single_is_off_by_the_rounding_of_its_forces) {
   EXPECT_GT(single.largest, 0.0);
 }
 
-class each_precision : public testing::TestWithParam<Precision> {};
+class EachPrecision : public testing::TestWithParam<Precision> {};
 
-TEST_P(each_precision, has_the_same_bits_for_all_vectors) {
+TEST_P(EachPrecision, HasTheSameBitsForAllVectors) {
   const State first = after(touching(GetParam()), 5000, "avx2").state;
   for (const VectorTarget target : available_vectors()) {
     const State other = after(touching(GetParam()), 5000, std::string(name_of(target))).state;
@@ -160,7 +160,7 @@ TEST_P(each_precision, has_the_same_bits_for_all_vectors) {
 }
 
 // 28 columns are dealt to 4 lanes, also where there are 8.
-TEST(precision, takes_columns_that_only_four_lanes_divide) {
+TEST(Precision, TakesColumnsThatOnlyFourLanesDivide) {
   Scene scene = flying(Precision::compensated);
   scene.ball.per_ring = 28;
   scene.law.rest = Rest::geometry;
@@ -174,7 +174,7 @@ TEST(precision, takes_columns_that_only_four_lanes_divide) {
   }
 }
 
-TEST_P(each_precision, goes_on_from_a_snapshot_with_the_same_bits) {
+TEST_P(EachPrecision, GoesOnFromASnapshotWithTheSameBits) {
   for (const char* method : {"listing", "leapfrog"}) {
     Scene scene = touching(GetParam());
     scene.time.method = method;
@@ -192,7 +192,7 @@ TEST_P(each_precision, goes_on_from_a_snapshot_with_the_same_bits) {
   }
 }
 
-TEST_P(each_precision, keeps_a_nan_where_it_is) {
+TEST_P(EachPrecision, KeepsANanWhereItIs) {
   Problem problem = make_problem(touching(GetParam()));
   problem.initial.y[0] = std::numeric_limits<double>::quiet_NaN();
   const auto stepper = stepper_of(problem);
@@ -202,15 +202,15 @@ TEST_P(each_precision, keeps_a_nan_where_it_is) {
   EXPECT_TRUE(std::isfinite(state.y[60]));  // across the ring; a step reaches one bond further
 }
 
-INSTANTIATE_TEST_SUITE_P(all, each_precision,
+INSTANTIATE_TEST_SUITE_P(All, EachPrecision,
                          testing::Values(Precision::compensated, Precision::single_precision),
                          [](const auto& of) {
-                           return of.param == Precision::compensated ? "compensated" : "single";
+                           return of.param == Precision::compensated ? "Compensated" : "Single";
                          });
 
 // Beside plain double, after some thousand steps on walls. Roundings part by an ULP a step and
 // position, 3.6e-15 cm; a wall at an angle adds one a contact.
-TEST(precision, compensated_meets_walls_as_double_does) {
+TEST(Precision, CompensatedMeetsWallsAsDoubleDoes) {
   const double h = std::sqrt(0.5);
   for (const Contact contact : {Contact::listing, Contact::resolved}) {
     for (const bool wedge : {false, true}) {
@@ -235,13 +235,13 @@ TEST(precision, compensated_meets_walls_as_double_does) {
 
 // The floor turns high and low parts exactly; the moment of a contact may be another by one step,
 // which moves a particle by v dt = 2e-6 cm.
-TEST(precision, single_meets_a_floor_as_double_does) {
+TEST(Precision, SingleMeetsAFloorAsDoubleDoes) {
   const State plain = after(touching(Precision::double_precision), 8000).state;
   const State single = after(touching(Precision::single_precision), 8000).state;
   EXPECT_LE(largest_difference(single, plain), 4.0 * 7.0 * half_ulp + 2.1e-6);
 }
 
-TEST(precision, only_ring_has_others_than_double) {
+TEST(Precision, OnlyRingHasOthersThanDouble) {
   for (const Precision precision : {Precision::compensated, Precision::single_precision}) {
     EXPECT_EQ(make_plan(make_problem(flying(precision))).kernel, "ring");
     for (const char* kernel : {"mirror", "rings", "csr", "strict"}) {
@@ -260,7 +260,7 @@ TEST(precision, only_ring_has_others_than_double) {
   }
 }
 
-TEST(precision, single_refuses_walls_that_it_cannot_meet) {
+TEST(Precision, SingleRefusesWallsThatItCannotMeet) {
   Scene scene = touching(Precision::single_precision);
   scene.walls[0].contact = Contact::resolved;
   EXPECT_NE(refusal_of(scene, {}).find("at rest on a wall"), std::string::npos);

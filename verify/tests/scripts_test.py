@@ -353,5 +353,103 @@ class Stability(unittest.TestCase):
                 edge.read_sweep(Path(folder))
 
 
+@unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
+class Contact(unittest.TestCase):
+    """contact.py and accuracy.py, on made-up rows of bounce accuracy."""
+
+    NAMES = ("height", "speed", "rebound", "contact_time", "energy_lost", "flattening")
+    HEAD = ["method", "contact", "precision", "dt", "tolerance", "steps", "evaluations", "kernel", "seconds",
+            "error_position", *(f"error_{name}" for name in NAMES), "error_energy", "error_energy_free", *NAMES, "note"]
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def row(self, method, contact, step, error, precision="double", note=""):
+        return [method, contact, precision, str(step), "", "1", "1", "ring", "1.0", "1e-9", *[str(error)] * 6, "1e-9",
+                "1e-9", *[str(5.0 + error)] * 6, note]
+
+    def study(self, name, rows, commit="abc"):
+        place = self.folder / "runs" / name
+        place.mkdir(parents=True)
+        lines = [self.HEAD, self.row("reference", "", "", 1e-12, precision=""), *rows]
+        (place / "accuracy.csv").write_text("".join(",".join(line) + "\n" for line in lines))
+        (place / "table.txt").write_text("")
+        (place / "scene.toml").write_text("")
+        best = {"method": "leapfrog", "contact": "listing", "precision": "single", "dt": 1e-4, "seconds": 1.0}
+        (place / "origin.json").write_text(json.dumps({"commit": commit, "date": "today", "cpu": "some",
+                                                       "oracle_seconds": 100.0, "best": best}))
+
+    def rows(self, resolved_step=1e-4):
+        """The paper's rule is off by 1000 dt, the resolved by dt^2 x 1000."""
+        return [*(self.row("listing", "listing", step, 1e3 * step) for step in (1e-4, 1e-5, 1e-6, 1e-7)),
+                self.row("leapfrog", "resolved", resolved_step, 1e-5),
+                self.row("leapfrog", "resolved", 1e-4, 1e-2, precision="compensated"),
+                self.row("leapfrog", "listing", 1e-4, 1e-3, precision="single"),
+                self.row("gsl-bsimp", "located", "nan", math.inf, note='"too long, said ""it"""')]
+
+    def growth(self):
+        place = self.folder / "runs" / "contact-growth"
+        place.mkdir(parents=True)
+        growth = {"start": 1e-9, "at_contact": 1e-8, "end": 1.0, "rate": 2.0}
+        (place / "observables.json").write_text(json.dumps({"growth": growth}))
+
+    def run_script(self, name, *words):
+        return subprocess.run([SCRIPTS / name, "--runs", self.folder / "runs", "--out", self.folder / "out", *words],
+                              capture_output=True, text=True, check=False)
+
+    def test_the_factor_is_that_of_the_exact_steps(self):
+        self.study("contact-a", self.rows())
+        self.growth()
+        done = self.run_script("contact.py", "a")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "out" / "contact.md").read_text()
+        self.assertIn("| a | 100 | yes | speed 100, ", text)
+        self.assertIn("| a | height | 5 | 1.0e-12 | 5 ± ", text)  # the limit of the paper's rule
+        self.assertTrue((self.folder / "out" / "contact.png").is_file())
+
+    def test_a_factor_that_is_too_small_is_told(self):
+        rows = self.rows()
+        rows[4] = self.row("leapfrog", "resolved", 1e-4, 2e-4)
+        self.study("contact-a", rows)
+        self.growth()
+        self.assertEqual(self.run_script("contact.py", "a").returncode, 0)
+        self.assertIn("| a | 5 | NO | ", (self.folder / "out" / "contact.md").read_text())
+
+    def test_what_is_not_there_is_named(self):
+        self.study("contact-a", self.rows(resolved_step=1.01e-4))
+        self.study("contact-b", self.rows(), commit="abc-dirty")
+        self.growth()
+        for scene, text in (("a", "at exactly 0.0001 s"), ("b", "one clean commit"), ("c", "cannot be read")):
+            done = self.run_script("contact.py", scene)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(text, done.stderr)
+            self.assertEqual(list((self.folder / "out").iterdir()), [])
+
+    def test_precisions_are_in_table_and_picture(self):
+        from pictures import accuracy
+
+        self.study("accuracy-a", self.rows())
+        done = self.run_script("accuracy.py", "a")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| leapfrog, listing, single, 0.0001 |", (self.folder / "out" / "accuracy.md").read_text())
+        study = accuracy.read_study(self.folder / "runs" / "accuracy-a")
+        self.assertIn(("leapfrog", "resolved", "compensated"), study.lines())
+        labels = [text.get_text() for text in accuracy.figure_of(study, "a").axes[-2].get_legend().get_texts()]
+        self.assertIn("leapfrog, resolved, compensated", labels)
+        self.assertIn("listing, listing", labels)
+        self.assertIn("gsl-bsimp, located (not finished)", labels)
+
+    def test_scripts_refuse_unknown_options(self):
+        for name in ("contact.sh", "accuracy.sh"):
+            done = subprocess.run([SCRIPTS / name, "--no-such"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{name}: unknown option --no-such", done.stderr)
+            done = subprocess.run([SCRIPTS / name, "--help"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn(f"scripts/{name} [--out DIR]", done.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()

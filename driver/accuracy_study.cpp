@@ -1,0 +1,150 @@
+#include "driver/accuracy_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "driver/input_error.hpp"
+#include "driver/load_problem.hpp"
+#include "driver/scene_keys.hpp"
+#include "driver/state_file.hpp"
+#include "kernels/stepping/method.hpp"
+#include "verify/baseline.hpp"
+
+namespace bounce {
+namespace {
+
+constexpr double papers_step = 1e-6;  // s
+
+void check_names(const StudyRequest& request) {
+  for (const std::string& name : request.methods) {
+    if (find_method(name) != nullptr || is_baseline(name)) continue;
+    std::vector<std::string> all;
+    for (const Method& method : methods()) all.emplace_back(method.name);
+    for (const Baseline& baseline : baselines()) {
+      if (all.back() != baseline.name) all.emplace_back(baseline.name);
+    }
+    throw InputError(
+        fmt::format("--methods {}: unknown; allowed is {}", name, fmt::join(all, ", ")));
+  }
+  for (const std::string& word : request.precisions) {
+    if (precision_of(word)) continue;
+    throw InputError(
+        fmt::format("--precisions {}: unknown; allowed is {}", word, precision_words()));
+  }
+}
+
+void check_numbers(const StudyRequest& request, const Scene& scene) {
+  if (!(request.every > 0.0 && request.every <= scene.time.end / 10.0)) {
+    throw InputError(fmt::format("--every {}: allowed is above 0, at most a tenth of time.end = {}",
+                                 request.every, scene.time.end));
+  }
+  const StepSweep& sweep = request.sweep;
+  if (!(sweep.decades > 0.0 && sweep.decades <= 6.0)) {
+    throw InputError(fmt::format("--decades {}: allowed is above 0, at most 6", sweep.decades));
+  }
+  if (sweep.per_decade < 1 || sweep.per_decade > 100) {
+    throw InputError(fmt::format("--per-decade {}: allowed is 1 to 100", sweep.per_decade));
+  }
+}
+
+// Steps of that length in a sampling interval. Beyond the nearest whole number's roundings the step
+// would not be the asked one.
+std::int64_t steps_a_sample(double step, const Sampling& sampling) {
+  const double steps = sampling.every / step;
+  constexpr double roundings = 1e-9;
+  constexpr double most = 1e9;  // some 1e-11 s: far below any of use, far from overflow
+  if (step > 0.0 && steps < most && std::round(steps) >= 1.0 &&
+      std::abs(steps - std::round(steps)) <= roundings * steps) {
+    return std::llround(steps);
+  }
+  throw InputError(fmt::format(
+      "--steps {}: allowed is a whole part of {} s, the time between two looks, at least {:.0e} s",
+      step, sampling.every, sampling.every / most));
+}
+
+// The paper's rule beside its own scheme and the simplest other one; and in single precision, which
+// has no other.
+std::vector<Contact> contacts_of(const Scene& scene, const Method& method, Precision precision) {
+  if (scene.walls.empty()) return {Contact::resolved};
+  if (precision == Precision::single_precision) return {Contact::listing};
+  if (precision == Precision::compensated || method.evaluations > 1) return {Contact::resolved};
+  return {Contact::listing, Contact::resolved};
+}
+
+std::vector<Precision> precisions_of(const StudyRequest& request, const std::string& method) {
+  if (request.precisions.empty()) return precisions_by_default(method);
+  std::vector<Precision> found;
+  for (const std::string& word : request.precisions) found.push_back(*precision_of(word));
+  return found;
+}
+
+// A line of the plot: one kind of setting at all its steps.
+void add_line(const Setting& kind, const StudyRequest& request, Study& study) {
+  if (const std::string why = plan_refusal(study.scene, study.initial, kind, study.sampling);
+      !why.empty()) {
+    study.left_out.push_back(fmt::format("{}, {}: {}", kind.method, word_of(kind.precision), why));
+    return;
+  }
+  StepSweep sweep = request.sweep;
+  if (request.quick) sweep.decades = std::min(sweep.decades, 1.5);
+  if (request.quick) sweep.per_decade = std::min(sweep.per_decade, 2);
+  auto line = settings_of(study.scene, study.initial, kind, study.sampling, sweep);
+  for (const double step : request.steps) {
+    Setting setting = kind;
+    setting.steps_a_sample = steps_a_sample(step, study.sampling);
+    if (std::find(line.begin(), line.end(), setting) == line.end()) line.push_back(setting);
+  }
+  std::stable_sort(line.begin(), line.end(), [](const Setting& a, const Setting& b) {
+    return a.steps_a_sample < b.steps_a_sample;
+  });
+  study.settings.insert(study.settings.end(), line.begin(), line.end());
+}
+
+}  // namespace
+
+bool StudyRequest::wants(std::string_view method) const {
+  return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
+}
+
+std::vector<Precision> precisions_by_default(const std::string& method) {
+  const auto all = bounce::methods();
+  const auto highest = std::max_element(
+      all.begin(), all.end(), [](const Method& a, const Method& b) { return a.order < b.order; });
+  if (method != "leapfrog" && method != highest->name) return {Precision::double_precision};
+  return {Precision::double_precision, Precision::compensated, Precision::single_precision};
+}
+
+Study make_study(const StudyRequest& request) {
+  SceneFile file = SceneFile::find(request.scene);
+  for (const std::string& setting : request.settings) file.set(setting);
+  if (!request.initial.empty()) file.note_origin("initial state", request.initial);
+  load_problem(file, request.initial);  // throws what is wrong with it
+  Study study{std::move(file), {}, {}, {}, {}, {}, {}};
+  study.scene = study.file.scene();
+  check_names(request);
+  check_numbers(request, study.scene);
+  if (!request.initial.empty()) study.initial = read_state(request.initial);
+  study.sampling = sampling_of(study.scene, request.every);
+  for (const double step : request.steps) static_cast<void>(steps_a_sample(step, study.sampling));
+  for (const Method& method : methods()) {
+    if (!request.wants(method.name)) continue;
+    const std::string name(method.name);
+    for (const Precision precision : precisions_of(request, name)) {
+      for (const Contact contact : contacts_of(study.scene, method, precision)) {
+        add_line({name, contact, 1, precision}, request, study);
+      }
+    }
+  }
+  study.papers = {"listing", Contact::listing, std::llround(study.sampling.every / papers_step)};
+  auto& all = study.settings;
+  if (!study.scene.walls.empty() && std::find(all.begin(), all.end(), study.papers) == all.end()) {
+    all.insert(all.begin(), study.papers);
+  }
+  if (all.empty() && !study.left_out.empty()) throw InputError(study.left_out.front());
+  return study;
+}
+
+}  // namespace bounce

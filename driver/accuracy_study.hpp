@@ -1,0 +1,46 @@
+// What bounce accuracy compares with what: its options, checked, as a list of settings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "driver/scene_file.hpp"
+#include "kernels/model/state.hpp"
+#include "verify/accuracy.hpp"
+
+namespace bounce {
+
+/// What a user asks for.
+struct StudyRequest {
+  std::string scene;
+  std::vector<std::string> settings;    ///< key=value
+  std::string initial;                  ///< file of the initial state, or ""
+  std::vector<std::string> methods;     ///< and baselines; none: all
+  std::vector<std::string> precisions;  ///< for all methods; none: see precisions_by_default
+  std::vector<double> steps;            ///< s, besides those of the sweep
+  double every = 0.01;                  ///< s
+  StepSweep sweep;
+  bool quick = false;
+
+  [[nodiscard]] bool wants(std::string_view method) const;
+};
+
+struct Study {
+  SceneFile file;
+  Scene scene;
+  std::optional<State> initial;
+  Sampling sampling;
+  Setting papers;  ///< the paper's program, one of them if there is a wall
+  std::vector<Setting> settings;
+  std::vector<std::string> left_out;  ///< what no kernel can run, and why
+};
+
+/// Double for all; the others for the simplest method and that of the highest order only, as what
+/// they change is rounding, and that is much the same for all.
+std::vector<Precision> precisions_by_default(const std::string& method);
+
+/// Throws InputError, SceneError.
+Study make_study(const StudyRequest& request);
+
+}  // namespace bounce
