@@ -76,15 +76,14 @@ std::vector<std::string> finest_methods() {
 }
 
 // Double, and single where it can be sooner.
-//  - Compensated costs more a step than double, and a setting of it could be the cheapest only
-//  below
-//    what double's roundings leave of an error. The pilot's reference is in double and knows the
-//    course no better than that, so such an error is refused before.
-//  - Single with a wall has only the listing's contact, whose error falls but with the first power
-//    of the step: its steps would have to be many times smaller, for a kernel that is not nearly
-//    as much faster.
-//  - A ball that is its own mirror image takes mirror, half the work in double, against twice the
-//    lanes in single of which low parts take a good part again: it is not sooner.
+//  - Compensated costs more a step than double. It could only be the cheapest where double's
+//    roundings are more than the error asked; the pilot's reference, in double, knows the course no
+//    better, so such an error is refused before.
+//  - Single has only the listing's contact, whose error falls with the first power of the step:
+//    with a wall its steps would have to be many times smaller, and its kernel is not nearly that
+//    much faster.
+//  - A ball that is its own mirror image takes `mirror`, half the work in double, against twice the
+//    lanes in single, of which low parts take a good part again: it is not sooner.
 std::vector<Precision> precisions_worth_trying(const AdviceRequest& request,
                                                const Sampling& sampling) {
   std::vector<Precision> worth{Precision::double_precision};
