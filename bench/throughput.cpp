@@ -114,6 +114,8 @@ class Subject {
   [[nodiscard]] virtual std::optional<Counted> counted() const { return std::nullopt; }
   /// Threads that meet once a stage.
   [[nodiscard]] virtual int team() const { return 1; }
+  /// Of a turn, where fewer are not what a user takes.
+  [[nodiscard]] virtual std::int64_t least_steps() const { return 1; }
 };
 
 class OracleSubject final : public Subject {
@@ -198,6 +200,8 @@ class EnsembleSubject final : public Subject {
     return static_cast<std::int64_t>(ensemble_.size());
   }
   [[nodiscard]] std::optional<Counted> counted() const override { return counted_; }
+  // A scene goes into its lane once a turn, and is looked at as often as a sweep looks.
+  [[nodiscard]] std::int64_t least_steps() const override { return Ensemble::check_every; }
 
  private:
   Ensemble ensemble_;
@@ -238,7 +242,7 @@ void run_row(benchmark::State& state, const Case& of, const MakeSubject& make) {
   }
   OracleSubject oracle(of, &native::run_listing), fast_math(of, &fast_math::run_listing);
   const auto subject = make();
-  const std::int64_t batch = batch_for(*subject, 2.5e-3);
+  const std::int64_t batch = std::max(batch_for(*subject, 2.5e-3), subject->least_steps());
   std::vector<double> times, ratios, ratios_fast_math, parts, hand_shakes;
   for (auto turn : state) {
     (void)turn;

@@ -32,9 +32,7 @@ class Ensemble::Worker {
         look_every_(look_every),
         lanes_(batch_->lanes()),
         parked_(parked),
-        read_(parked) {
-    for (std::size_t l = 0; l < lanes_.size(); ++l) free_lane(l);
-  }
+        read_(parked) {}
   [[nodiscard]] std::size_t lanes() const { return lanes_.size(); }
 
   /// Takes scenes from the queue until it is empty and they are done.
@@ -46,6 +44,9 @@ class Ensemble::Worker {
         busy = busy || lanes_[l].member != nullptr;
       }
       if (!busy) return;
+      for (std::size_t l = 0; l < lanes_.size(); ++l) {
+        if (lanes_[l].member == nullptr) park(l);
+      }
       run_to_next_look(members.data(), is_good);
     }
   }
@@ -56,6 +57,7 @@ class Ensemble::Worker {
     std::int64_t step = 0;  // of the scene, as the batch holds it
     std::int64_t end = 0;   // the step at which it is done
     bool stage_held = false;
+    bool parked = false;
 
     // The next step at which it is to be looked at. It depends on the scene alone, so that what a
     // scene is retired for does too.
@@ -124,7 +126,7 @@ class Ensemble::Worker {
       member.now.step = lane.step;
       member.now.stage_held = lane.stage_held;
     }
-    if (member.retired || lane.step == lane.end) free_lane(l);
+    if (member.retired || lane.step == lane.end) lanes_[l] = {};
   }
 
   // The state just read with its step finished, as a user sees it.
@@ -134,9 +136,10 @@ class Ensemble::Worker {
     return state;
   }
 
-  // An empty lane holds a ball that stands still, far from any wall.
-  void free_lane(std::size_t l) {
-    lanes_[l] = {};
+  // A lane that runs empty holds a ball that stands still, far from any wall.
+  void park(std::size_t l) {
+    if (lanes_[l].parked) return;
+    lanes_[l].parked = true;
     batch_->write(l, parked_, {});
   }
 
