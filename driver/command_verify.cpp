@@ -53,11 +53,9 @@ std::vector<Case> make_cases(const Options& options) {
     }
     if (scene.time.precision != Precision::double_precision) {
       throw PlanError(fmt::format(
-          "bounce verify {}: time.precision = {}: allowed is double: the oracle computes in it, "
-          "and "
-          "what a kernel may be off is told by balls disturbed by its roundings, which are not "
-          "those "
-          "of other precisions; how far these are off is measured by bounce accuracy --precisions",
+          "bounce verify {}: time.precision = {}: allowed is double: what a kernel may be off is "
+          "told by balls disturbed by double's roundings; how far off another precision is, bounce "
+          "accuracy --precisions measures",
           name, word_of(scene.time.precision)));
     }
     const std::int64_t whole = scene.steps_until(scene.time.end);
