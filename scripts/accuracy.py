@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Draws error against run time and makes its table, from what scripts/accuracy.sh has put into runs/.
 
-Writes OUT/accuracy.md (for README) and OUT/accuracy/: each study's accuracy.csv, table.txt, scene.toml and
-origin.json, and a picture as PNG and SVG. From studies of one clean commit only, unless --allow-dirty.
+Writes OUT/accuracy/: of each named scene accuracy.csv, table.txt, scene.toml and origin.json, and a picture as PNG and
+SVG; and OUT/accuracy.md (for README), the table of these and of all scenes that OUT/accuracy holds already. From
+studies of clean commits only, unless --allow-dirty.
 """
 
 import math
@@ -41,9 +42,10 @@ def row_of(scene, study):
 
 def markdown(found):
     head = ["scene", "paper's program, s", "its error, cm", "cheapest setting as good: method, contact, Δt",
-            "run, s", "its error, cm", "known to, cm", "times sooner"]
-    lines = [head, ["---"] * len(head), *(row_of(scene, study) for scene, study in found.items())]
-    some = next(iter(found.values())).origin
+            "run, s", "its error, cm", "known to, cm", "times sooner", "at commit"]
+    lines = [head, ["---"] * len(head),
+             *([*row_of(scene, study), study.origin["commit"]] for scene, study in found.items())]
+    machines = sorted({study.origin["cpu"] for study in found.values()})
     return "\n".join([
         "# Error against run time\n",
         "The paper's program is the listing's scheme and contact with Δt = 1e-6 s on the oracle. As good: in each "
@@ -51,26 +53,35 @@ def markdown(found):
         "of the centre at the end. One core; known to: what the two references differ by.\n",
         "".join("| " + " | ".join(line) + " |\n" for line in lines),
         "".join(f"![{scene}](results/accuracy/{scene}.png)\n" for scene in list(found)[:2]),
-        f"Made by `scripts/accuracy.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}; all rows, and "
-        "the other pictures: `results/accuracy/`.",
+        f"Made by `scripts/accuracy.sh` at the commits named, on {', '.join(machines)}; all rows, the other pictures and "
+        "each scene's date: `results/accuracy/`.",
         "",
     ])
 
 
+def put(scene, study, source, folder):
+    """A scene's files and pictures."""
+    place = folder / scene
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir()
+    for name in ("accuracy.csv", "table.txt", "origin.json", "scene.toml"):
+        shutil.copy(source / name, place / name)
+    figure = accuracy.figure_of(study, f"{scene}: error against cost (grey: not known to the reference)")
+    for kind in ("png", "svg"):
+        figure.savefig(folder / f"{scene}.{kind}", metadata={"Date": None} if kind == "svg" else None)
+    plt.close(figure)
+
+
 def make(arguments, folder):
-    found = studies.read_studies(arguments, "accuracy")
-    (folder / "accuracy").mkdir()
-    for scene, study in found.items():
-        source = arguments.runs / f"accuracy-{scene}"
-        place = folder / "accuracy" / scene
-        place.mkdir()
-        for name in ("accuracy.csv", "table.txt", "origin.json", "scene.toml"):
-            shutil.copy(source / name, place / name)
-        figure = accuracy.figure_of(study, f"{scene}: error against cost (grey: not known to the reference)")
-        for kind in ("png", "svg"):
-            figure.savefig(folder / "accuracy" / f"{scene}.{kind}",
-                           metadata={"Date": None} if kind == "svg" else None)
-        plt.close(figure)
+    new = studies.read_studies(arguments, "accuracy")
+    all_scenes = folder / "accuracy"
+    if (arguments.out / "accuracy").is_dir():
+        shutil.copytree(arguments.out / "accuracy", all_scenes)
+    else:
+        all_scenes.mkdir()
+    for scene, study in new.items():
+        put(scene, study, arguments.runs / f"accuracy-{scene}", all_scenes)
+    found = {place.name: accuracy.read_study(place) for place in sorted(all_scenes.iterdir()) if place.is_dir()}
     (folder / "accuracy.md").write_text(markdown(found), encoding="utf-8")
 
 

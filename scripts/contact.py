@@ -124,6 +124,7 @@ def draw(found, path):
 
 def make(arguments, folder):
     found = studies.read_studies(arguments, "contact")
+    studies.one_commit(found)
     rows = [line for scene, study in found.items() for line in lines_of(scene, study)]
     (folder / "contact.md").write_text(markdown(rows, next(iter(found.values())).origin,
                                                 growth_text(arguments.runs / "contact-growth")), encoding="utf-8")

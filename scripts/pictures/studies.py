@@ -21,10 +21,25 @@ def read_arguments(description, name):
     return parser.parse_args()
 
 
+def check_clean(folder, study):
+    commit = study.origin["commit"]
+    if "dirty" in commit or commit == "unknown":
+        raise RunError(f"{folder}: commit {commit}: allowed is a clean commit")
+
+
 def read_studies(arguments, name):
-    """Scene to study. RunError if they are not of one clean commit, unless --allow-dirty."""
-    found = {scene: accuracy.read_study(arguments.runs / f"{name}-{scene}") for scene in arguments.scenes}
-    commits = sorted({study.origin["commit"] for study in found.values()})
-    if not arguments.allow_dirty and (len(commits) > 1 or "dirty" in commits[0] or commits[0] == "unknown"):
-        raise RunError(f"{arguments.runs}: commits {', '.join(commits)}: allowed is one clean commit for all")
+    """Scene to study. RunError if one is not of a clean commit, unless --allow-dirty."""
+    found = {}
+    for scene in arguments.scenes:
+        folder = arguments.runs / f"{name}-{scene}"
+        found[scene] = accuracy.read_study(folder)
+        if not arguments.allow_dirty:
+            check_clean(folder, found[scene])
     return found
+
+
+def one_commit(found):
+    """RunError if the studies are not of one commit: some rows are compared across scenes, or told with one origin."""
+    commits = sorted({study.origin["commit"] for study in found.values()})
+    if len(commits) > 1:
+        raise RunError(f"commits {', '.join(commits)}: allowed is one clean commit for all")

@@ -81,6 +81,12 @@ TEST_F(DriverAccuracyTest, HasTheBaselinesBesideTheMethods) {
   EXPECT_EQ(csv.find("\nleapfrog,"), std::string::npos) << csv;
 }
 
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
 // Double for all methods; compensated and single beside it for the simplest and the highest order.
 TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
   ASSERT_EQ(run(impact + "--methods leapfrog,yoshida-4,blanes-moan-6 --quick"), 0) << err();
@@ -96,6 +102,10 @@ TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
                           "\nleapfrog,listing,compensated,", ",resolved,single,"}) {
     EXPECT_EQ(csv.find(row), std::string::npos) << row << csv;
   }
+  // Half of the 1.5 decades where there are many evaluations.
+  EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,double,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,compensated,"), 3) << csv;
+  EXPECT_EQ(count(csv, "\nleapfrog,resolved,compensated,"), 4) << csv;
 }
 
 TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {

@@ -421,7 +421,7 @@ class Contact(unittest.TestCase):
         self.study("contact-a", self.rows(resolved_step=1.01e-4))
         self.study("contact-b", self.rows(), commit="abc-dirty")
         self.growth()
-        for scene, text in (("a", "at exactly 0.0001 s"), ("b", "one clean commit"), ("c", "cannot be read")):
+        for scene, text in (("a", "at exactly 0.0001 s"), ("b", "a clean commit"), ("c", "cannot be read")):
             done = self.run_script("contact.py", scene)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(text, done.stderr)
@@ -440,6 +440,25 @@ class Contact(unittest.TestCase):
         self.assertIn("leapfrog, resolved, compensated", labels)
         self.assertIn("listing, listing", labels)
         self.assertIn("gsl-bsimp, located (not finished)", labels)
+
+    def test_a_scene_comes_to_those_that_are_there(self):
+        self.study("accuracy-b", self.rows(), commit="first")
+        self.assertEqual(self.run_script("accuracy.py", "b").returncode, 0)
+        self.study("accuracy-a", self.rows(), commit="second")
+        self.assertEqual(self.run_script("accuracy.py", "a").returncode, 0)
+        lines = [line for line in (self.folder / "out" / "accuracy.md").read_text().splitlines()
+                 if line.startswith(("| a |", "| b |"))]
+        self.assertEqual([line.split(" | ")[-1] for line in lines], ["second |", "first |"])
+        for name in ("a/accuracy.csv", "b/accuracy.csv", "a.png", "b.svg"):
+            self.assertTrue((self.folder / "out" / "accuracy" / name).is_file(), name)
+
+    def test_one_table_of_contacts_is_of_one_commit(self):
+        self.study("contact-a", self.rows(), commit="first")
+        self.study("contact-b", self.rows(), commit="second")
+        self.growth()
+        done = self.run_script("contact.py", "a", "b")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("first, second: allowed is one clean commit", done.stderr)
 
     def test_scripts_refuse_unknown_options(self):
         for name in ("contact.sh", "accuracy.sh"):
