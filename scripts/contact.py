@@ -20,7 +20,8 @@ try:
 except ImportError as missing:
     sys.exit(f"contact.py: {missing}; install it with: apt-get install python3-matplotlib")
 
-RESOLVED_STEP = 1e-4  # s; the paper's rule has 1e-6
+RESOLVED_STEP = 1e-4  # s; the paper's rule has PAPERS_STEP
+PAPERS_STEP = 1e-6
 LEAST_FACTOR = 10.0
 
 
@@ -48,29 +49,37 @@ def lines_of(scene, study):
     lines = study.lines()
     listing = lines.get(("listing", "listing", "double"), [])
     papers = study.papers()
-    resolved = at_step(lines.get(("leapfrog", "resolved", "double"), []), RESOLVED_STEP)
+    leapfrog = lines.get(("leapfrog", "resolved", "double"), [])
+    resolved, same_step = at_step(leapfrog, RESOLVED_STEP), at_step(leapfrog, PAPERS_STEP)
     if not papers or not resolved:
         raise RunError(f"{scene}: no row of the paper's program, or none of leapfrog with resolved contact at exactly "
                        f"{RESOLVED_STEP:g} s (bounce accuracy --steps)")
     for name in studies.OBSERVABLES:
         limit, bar = extrapolated(listing, name)
         key, known = f"error_{name}", study.bar[f"error_{name}"]
-        error = max(resolved[key], known)
+
+        def times(row, key=key, known=known):
+            error = max(row[key], known)
+            return papers[key] / error if error > 0 else math.inf
+
         yield {"scene": scene, "observable": name, "reference": study.bar[name], "known_to": known,
                "listing_limit": limit, "listing_limit_bar": bar, "smallest_dt": min(r["dt"] for r in listing),
                "listing_error_at_1e-6": papers[key], "resolved_error_at_1e-4": resolved[key],
-               "nearer_times": papers[key] / error if error > 0 else math.inf}
+               "nearer_times": times(resolved), "nearer_times_at_1e-6": times(same_step) if same_step else math.nan}
 
 
 def claim_of(rows):
     """What issue 5 asks for, scene by scene: how many times nearer the height is, and which of the rest are."""
-    text = ["| scene | height: nearer by a factor | of at least 10 | the other observables, least first |",
-            "| --- " * 4 + "|"]
+    text = ["| scene | height: nearer by a factor | of at least 10 | the other observables, least first "
+            "| height, both at 1e-6 s |", "| --- " * 5 + "|"]
     for scene in dict.fromkeys(row["scene"] for row in rows):
         times = {row["observable"]: row["nearer_times"] for row in rows if row["scene"] == scene}
         height = times.pop("height")
+        same_step = next(row["nearer_times_at_1e-6"] for row in rows
+                         if row["scene"] == scene and row["observable"] == "height")
         others = ", ".join(f"{name} {value:.3g}" for name, value in sorted(times.items(), key=lambda item: item[1]))
-        text.append(f"| {scene} | {height:.3g} | {'yes' if height >= LEAST_FACTOR else 'NO'} | {others} |")
+        text.append(f"| {scene} | {height:.3g} | {'yes' if height >= LEAST_FACTOR else 'NO'} | {others} "
+                    f"| {'-' if math.isnan(same_step) else format(same_step, '.3g')} |")
     return "\n".join(text) + "\n"
 
 
@@ -89,7 +98,8 @@ def growth_text(folder):
 def markdown(rows, some, growth):
     text = ["# The contact rules as the step goes to 0\n",
             "The resolved rule (leapfrog) at Δt = 1e-4 s against the paper's (listing's scheme) at Δt = 1e-6 s: how many "
-            "times nearer it is to the reference, which is the limit Δt → 0.\n",
+            "times nearer it is to the reference, which is the limit Δt → 0. At 1e-4 s, a quarter of the stable step at "
+            "E = 16000, leapfrog's own error counts as well as the contact's; so last the same with both at 1e-6 s.\n",
             claim_of(rows),
             "In full: the paper's rule extrapolated from its smallest steps, ± what leaving out the smallest changes; the "
             "two errors. Known to: what the two references differ by; nothing below counts.\n",

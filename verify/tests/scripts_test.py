@@ -406,16 +406,19 @@ class Contact(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         text = (self.folder / "out" / "contact.md").read_text()
         self.assertIn("| a | 100 | yes | speed 100, ", text)
+        self.assertRegex(text, r"\| a \| 100 \| yes \| .* \| - \|\n")  # no row to compare at 1e-6
         self.assertIn("| a | height | 5 | 1.0e-12 | 5 ± ", text)  # the limit of the paper's rule
         self.assertTrue((self.folder / "out" / "contact.png").is_file())
 
     def test_a_factor_that_is_too_small_is_told(self):
-        rows = self.rows()
+        rows = [*self.rows(), self.row("leapfrog", "resolved", 1e-6, 1e-7)]
         rows[4] = self.row("leapfrog", "resolved", 1e-4, 2e-4)
         self.study("contact-a", rows)
         self.growth()
         self.assertEqual(self.run_script("contact.py", "a").returncode, 0)
-        self.assertIn("| a | 5 | NO | ", (self.folder / "out" / "contact.md").read_text())
+        text = (self.folder / "out" / "contact.md").read_text()
+        self.assertIn("| a | 5 | NO | ", text)
+        self.assertRegex(text, r"\| a \| 5 \| NO \| .* \| 1e\+04 \|\n")
 
     def test_what_is_not_there_is_named(self):
         self.study("contact-a", self.rows(resolved_step=1.01e-4))
