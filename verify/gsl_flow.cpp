@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <string>
@@ -143,13 +144,14 @@ bool GslFlow::take(double h) {
 }
 
 void GslFlow::cut(double h) {
-  const double parts = std::max(1.0, std::ceil(h / cutters_step_));
+  const auto parts = static_cast<std::int64_t>(std::max(1.0, std::ceil(h / cutters_step_)));
+  const double part = h / static_cast<double>(parts);
   end_ = start_;
   end_rate_ = start_rate_;
   length_ = h;
-  for (double part = 0.0; part < parts; ++part) {
+  for (std::int64_t k = 0; k < parts; ++k) {
     part_rate_ = end_rate_;
-    gsl_odeiv2_step_apply(cutter_.get(), time_ + h * (part / parts), h / parts, end_.data(),
+    gsl_odeiv2_step_apply(cutter_.get(), time_ + static_cast<double>(k) * part, part, end_.data(),
                           error_.data(), part_rate_.data(), end_rate_.data(), &system_);
   }
 }

@@ -20,8 +20,8 @@ struct Ensemble::Member {
   bool retired = false;
   std::int64_t steps = 0;  // to be taken in this advance()
 
-  explicit Member(const Problem& start)
-      : problem(start), stages(step_stages(problem)), now{problem.initial} {}
+  explicit Member(Problem start)
+      : problem(std::move(start)), stages(step_stages(problem)), now{problem.initial} {}
 };
 
 /// A batch and the scenes in its lanes; used by one thread at a time.
