@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "kernels/model/ball.hpp"
 #include "kernels/model/bonds.hpp"
@@ -105,6 +106,27 @@ TEST(Neighbours, OfRingsAreTheListWithoutIt) {
   EXPECT_FALSE(Neighbours::of_rings(3, 120) == Neighbours::of_rings(3, 121));
   EXPECT_FALSE(Neighbours::of_rings(3, 120) == Neighbours(ring_bonds(3, 121)));
   EXPECT_EQ(Neighbours().particles(), 0U);
+}
+
+// Of balls that keep their bonds and of one that does not.
+TEST(Neighbours, EachBondIsVisitedOnceRowByRow) {
+  using Bonds = std::vector<std::array<std::size_t, 3>>;
+  for (const std::int64_t per_ring : {4, 120, 7000}) {
+    for (const Neighbours& neighbours :
+         {Neighbours::of_rings(3, per_ring), Neighbours(ring_bonds(3, per_ring))}) {
+      Bonds expected, found;
+      for (std::size_t i = 0; i < neighbours.particles(); ++i) {
+        neighbours.visit_row(i, [&](std::size_t j, std::size_t bond_class) {
+          if (j > i) expected.push_back({i, j, bond_class});
+        });
+      }
+      neighbours.for_each_bond([&](std::size_t i, std::size_t j, std::size_t bond_class) {
+        found.push_back({i, j, bond_class});
+      });
+      EXPECT_EQ(found.size(), neighbours.bonds());
+      EXPECT_EQ(found, expected);
+    }
+  }
 }
 
 TEST(Neighbours, AnyThreadMayAskForTheList) {
