@@ -16,8 +16,7 @@ class PowerOf {
     if (whole) whole_ = static_cast<int>(exponent);
   }
   [[nodiscard]] double operator()(double u) const {
-    switch (
-        whole_) {  // those of the paper's law without a loop: a sum over bonds takes half as long
+    switch (whole_) {  // the paper's law: no loop
       case 2:
         return u;
       case 4:

@@ -15,6 +15,7 @@
 #include "kernels/model/neighbours.hpp"
 #include "kernels/model/pair_law.hpp"
 #include "kernels/model/problem.hpp"
+#include "verify/powers.hpp"
 #include "verify/tests/paper_scenes.hpp"
 
 namespace bounce {
@@ -348,6 +349,28 @@ INSTANTIATE_TEST_SUITE_P(Exponents, PairLawTest,
                          testing::Values(PairLaw{3, 5}, PairLaw{7, 13}, PairLaw{2, 4},
                                          PairLaw{1, 3}, PairLaw{2.5, 4.5}, PairLaw{0.5, 1},
                                          PairLaw{3, 6}));
+
+// Sums over bonds take the powers of a law once a sum: even, odd and broken ones, and the
+// logarithm.
+TEST(PairLaw, PowersTakenOnceAreThoseOfEachBond) {
+  const BondClass bond{3.0, 2.0, 0.25};
+  for (const PairLaw law : {PairLaw{3, 5}, PairLaw{7, 13}, PairLaw{2, 4}, PairLaw{3, 7},
+                            PairLaw{2.5, 4.5}, PairLaw{1, 2}}) {
+    const StiffnessOf stiffness_of(law);
+    const PotentialOf potential_of(law);
+    for (const double r : {0.1, 0.25, 0.26, 1.0, 7.0}) {
+      const double r2 = r * r;
+      const Stiffness once = stiffness_of(bond, r2), each = stiffness(law, bond, r2);
+      // Of the two terms, which nearly cancel at rest: some ten roundings.
+      const double size = 1e-14 * (law.q * bond.repulsion * std::pow(r, -law.q - 1.0) +
+                                   law.p * bond.attraction * std::pow(r, -law.p - 1.0));
+      EXPECT_NEAR(once.along, each.along, size) << law.p << ' ' << law.q << ' ' << r;
+      EXPECT_NEAR(once.across, each.across, size) << law.p << ' ' << law.q << ' ' << r;
+      EXPECT_NEAR(potential_of(bond, r2), potential(law, bond, r2), size * (r2 + 1.0))
+          << law.p << ' ' << law.q << ' ' << r;
+    }
+  }
+}
 
 TEST(PairLaw, PotentialOfThePapersLaw) {
   const BondClass bond{16000.0, 1096.64, std::sqrt(0.06854)};
