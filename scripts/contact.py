@@ -59,8 +59,8 @@ def lines_of(scene, study):
         key, known = f"error_{name}", study.bar[f"error_{name}"]
 
         def times(row, key=key, known=known):
-            error = max(row[key], known)
-            return papers[key] / error if error > 0 else math.inf
+            error = known if row[key] < known else row[key]  # a NaN stays, and is nearer by no factor
+            return math.inf if error == 0 else papers[key] / error
 
         yield {"scene": scene, "observable": name, "reference": study.bar[name], "known_to": known,
                "listing_limit": limit, "listing_limit_bar": bar, "smallest_dt": min(r["dt"] for r in listing),

@@ -420,6 +420,14 @@ class Contact(unittest.TestCase):
         self.assertIn("| a | 5 | NO | ", text)
         self.assertRegex(text, r"\| a \| 5 \| NO \| .* \| 1e\+04 \|\n")
 
+    def test_no_number_is_no_factor(self):
+        rows = self.rows()
+        rows[4] = self.row("leapfrog", "resolved", 1e-4, math.nan)
+        self.study("contact-a", rows)
+        self.growth()
+        self.assertEqual(self.run_script("contact.py", "a").returncode, 0)
+        self.assertIn("| a | nan | NO | ", (self.folder / "out" / "contact.md").read_text())
+
     def test_what_is_not_there_is_named(self):
         self.study("contact-a", self.rows(resolved_step=1.01e-4))
         self.study("contact-b", self.rows(), commit="abc-dirty")
