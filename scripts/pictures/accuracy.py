@@ -110,7 +110,9 @@ def draw_guides(axes, rows, key):
         start = (left * (right / left) ** 0.62, high / 1.5)
         x = [start[0], start[0] * 10 ** (0.9 / order)]
         axes.plot(x, [start[1], start[1] * 10 ** -0.9], color="#8a9099", linewidth=0.8)
-        axes.annotate(label, (x[1], start[1] * 10 ** -0.9), fontsize=6.5, color="#5a6068")
+        # The two steepest end side by side.
+        axes.annotate(label, (x[1], start[1] * 10 ** -0.9), fontsize=6.5, color="#5a6068",
+                      ha="right" if order == 6 else "left")
     axes.set_xlim(left, right)
     axes.set_ylim(low, high)
 

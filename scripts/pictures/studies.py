@@ -21,8 +21,7 @@ def read_arguments(description, name):
     return parser.parse_args()
 
 
-def check_clean(folder, study):
-    commit = study.origin["commit"]
+def check_clean(folder, commit):
     if "dirty" in commit or commit == "unknown":
         raise RunError(f"{folder}: commit {commit}: allowed is a clean commit")
 
@@ -34,7 +33,7 @@ def read_studies(arguments, name):
         folder = arguments.runs / f"{name}-{scene}"
         found[scene] = accuracy.read_study(folder)
         if not arguments.allow_dirty:
-            check_clean(folder, found[scene])
+            check_clean(folder, found[scene].origin["commit"])
     return found
 
 

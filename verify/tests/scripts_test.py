@@ -385,48 +385,59 @@ class Contact(unittest.TestCase):
         """The paper's rule is off by 1000 dt, the resolved by dt^2 x 1000."""
         return [*(self.row("listing", "listing", step, 1e3 * step) for step in (1e-4, 1e-5, 1e-6, 1e-7)),
                 self.row("leapfrog", "resolved", resolved_step, 1e-5),
+                self.row("blanes-moan-6", "resolved", 1e-4, 1e-6), self.row("blanes-moan-6", "resolved", 1e-5, 1e-5),
                 self.row("leapfrog", "resolved", 1e-4, 1e-2, precision="compensated"),
                 self.row("leapfrog", "listing", 1e-4, 1e-3, precision="single"),
                 self.row("gsl-bsimp", "located", "nan", math.inf, note='"too long, said ""it"""')]
 
-    def growth(self):
-        place = self.folder / "runs" / "contact-growth"
-        place.mkdir(parents=True)
-        growth = {"start": 1e-9, "at_contact": 1e-8, "end": 1.0, "rate": 2.0}
-        (place / "observables.json").write_text(json.dumps({"growth": growth}))
+    def growth(self, commit="abc"):
+        for scene, end in (("a", 1e-3), ("b", 1e-3), ("example-3", 1.0)):
+            place = self.folder / "runs" / f"growth-{scene}"
+            place.mkdir(parents=True)
+            growth = {"start": 1e-9, "at_contact": 1e-8, "end": end, "rate": 2.0}
+            (place / "observables.json").write_text(json.dumps(
+                {"growth": growth, "fixed": {"contacts": 7}, "origin": {"commit": commit}}))
 
     def run_script(self, name, *words):
         return subprocess.run([SCRIPTS / name, "--runs", self.folder / "runs", "--out", self.folder / "out", *words],
                               capture_output=True, text=True, check=False)
 
-    def test_the_factor_is_that_of_the_exact_steps(self):
-        self.study("contact-a", self.rows())
+    def contacts(self, rows):
+        """The text of contact.md."""
+        self.study("contact-a", rows)
         self.growth()
         done = self.run_script("contact.py", "a")
         self.assertEqual(done.returncode, 0, done.stderr)
-        text = (self.folder / "out" / "contact.md").read_text()
-        self.assertIn("| a | 100 | yes | speed 100, ", text)
-        self.assertRegex(text, r"\| a \| 100 \| yes \| .* \| - \|\n")  # no row to compare at 1e-6
+        return (self.folder / "out" / "contact.md").read_text()
+
+    def test_the_factor_is_that_of_the_exact_steps(self):
+        text = self.contacts(self.rows())
+        # No row to compare at 1e-6; nearer by 10 at the one step there is.
+        self.assertRegex(text, r"\| a \| leapfrog \| 100 \| yes \| speed 100, .* \| - \| 0.0001 \|\n")
         self.assertIn("| a | height | 5 | 1.0e-12 | 5 ± ", text)  # the limit of the paper's rule
         self.assertTrue((self.folder / "out" / "contact.png").is_file())
+
+    def test_the_methods_have_a_line_each(self):
+        rows = [*self.rows(), self.row("blanes-moan-6", "resolved", 1e-6, 1e-5)]
+        text = self.contacts([*rows, self.row("blanes-moan-6", "resolved", 1e-7, 2e-4)])
+        # The smallest step is not nearer by 10, so there is none from which on all are.
+        self.assertRegex(text, r"\| a \| blanes-moan-6 \| 1e\+03 \| yes \| .* \| 100 \| - \|\n")
+
+    def test_the_growth_of_a_difference_tells_the_error_allowed(self):
+        text = self.contacts(self.rows())
+        # A tenth of the paper's 1e-3 over the growth from 1e-8 to 1e-3.
+        self.assertIn("| a | 7 | 1.0e-09 | 1.0e-08 | 1.0e-03 | 1.0e+05 | 2.0 | 1.0e-09 |", text)
+        self.assertIn("| example-3 | 7 | 1.0e-09 | 1.0e-08 | 1.0e+00 | 1.0e+08 | 2.0 | - |", text)
 
     def test_a_factor_that_is_too_small_is_told(self):
         rows = [*self.rows(), self.row("leapfrog", "resolved", 1e-6, 1e-7)]
         rows[4] = self.row("leapfrog", "resolved", 1e-4, 2e-4)
-        self.study("contact-a", rows)
-        self.growth()
-        self.assertEqual(self.run_script("contact.py", "a").returncode, 0)
-        text = (self.folder / "out" / "contact.md").read_text()
-        self.assertIn("| a | 5 | NO | ", text)
-        self.assertRegex(text, r"\| a \| 5 \| NO \| .* \| 1e\+04 \|\n")
+        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog \| 5 \| NO \| .* \| 1e\+04 \| 1e-06 \|\n")
 
     def test_no_number_is_no_factor(self):
         rows = self.rows()
         rows[4] = self.row("leapfrog", "resolved", 1e-4, math.nan)
-        self.study("contact-a", rows)
-        self.growth()
-        self.assertEqual(self.run_script("contact.py", "a").returncode, 0)
-        self.assertIn("| a | nan | NO | ", (self.folder / "out" / "contact.md").read_text())
+        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog \| nan \| NO \| .* \| - \| - \|\n")
 
     def test_what_is_not_there_is_named(self):
         self.study("contact-a", self.rows(resolved_step=1.01e-4))
@@ -470,6 +481,9 @@ class Contact(unittest.TestCase):
         done = self.run_script("contact.py", "a", "b")
         self.assertEqual(done.returncode, 2)
         self.assertIn("first, second: allowed is one clean commit", done.stderr)
+        done = self.run_script("contact.py", "a")  # the growth is of another
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("commit abc: allowed is that of the studies, first", done.stderr)
 
     def test_scripts_refuse_unknown_options(self):
         for name in ("contact.sh", "accuracy.sh"):
