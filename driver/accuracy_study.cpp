@@ -29,6 +29,10 @@ void check_names(const StudyRequest& request) {
     throw InputError(
         fmt::format("--methods {}: unknown; allowed is {}", name, fmt::join(all, ", ")));
   }
+  for (const std::string& word : request.contacts) {
+    if (contact_of(word)) continue;
+    throw InputError(fmt::format("--contacts {}: unknown; allowed is {}", word, contact_words()));
+  }
   for (const std::string& word : request.precisions) {
     if (precision_of(word)) continue;
     throw InputError(
@@ -66,12 +70,13 @@ std::int64_t steps_a_sample(double step, const Sampling& sampling) {
 }
 
 // The paper's rule beside its own scheme and the simplest other one; and in single precision, which
-// has no other.
+// has no other. Located contact is of double precision, and not for every motion.
 std::vector<Contact> contacts_of(const Scene& scene, const Method& method, Precision precision) {
   if (scene.walls.empty()) return {Contact::resolved};
   if (precision == Precision::single_precision) return {Contact::listing};
-  if (precision == Precision::compensated || method.evaluations > 1) return {Contact::resolved};
-  return {Contact::listing, Contact::resolved};
+  if (precision == Precision::compensated) return {Contact::resolved};
+  if (method.evaluations > 1) return {Contact::resolved, Contact::located};
+  return {Contact::listing, Contact::resolved, Contact::located};
 }
 
 std::vector<Precision> precisions_of(const StudyRequest& request, const std::string& method) {
@@ -81,13 +86,14 @@ std::vector<Precision> precisions_of(const StudyRequest& request, const std::str
   return found;
 }
 
-// The other precisions that nobody asked for are run to see the rounding of each. A method of many
-// evaluations, and of an order that needs no small steps, meets it a decade before the others;
-// there its sweep may end, which else takes half of the study's time: these kernels are the slower
-// ones.
+// A method of many evaluations, and of an order that needs no small steps, meets the roundings a
+// decade before the others where contacts are located. The other precisions that nobody asked for
+// are run to see their rounding. There its sweep may end, which else takes half of the study's
+// time.
 double decades_of(const Setting& kind, const StudyRequest& request, double decades) {
-  const bool early = request.precisions.empty() && kind.precision != Precision::double_precision &&
-                     find_method(kind.method)->evaluations > 1;
+  const bool rounded = request.precisions.empty() && kind.precision != Precision::double_precision;
+  const bool early =
+      (rounded || kind.contact == Contact::located) && find_method(kind.method)->evaluations > 1;
   return early ? std::max(decades - 1.0, 0.5 * decades) : decades;
 }
 
@@ -120,6 +126,11 @@ bool StudyRequest::wants(std::string_view method) const {
   return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
 }
 
+bool StudyRequest::wants(Contact contact) const {
+  return contacts.empty() ||
+         std::find(contacts.begin(), contacts.end(), word_of(contact)) != contacts.end();
+}
+
 std::vector<Precision> precisions_by_default(const std::string& method) {
   const auto all = bounce::methods();
   const auto highest = std::max_element(
@@ -145,6 +156,7 @@ Study make_study(const StudyRequest& request) {
     const std::string name(method.name);
     for (const Precision precision : precisions_of(request, name)) {
       for (const Contact contact : contacts_of(study.scene, method, precision)) {
+        if (!request.wants(contact)) continue;
         add_line({name, contact, 1, precision}, request, study);
       }
     }

@@ -17,6 +17,7 @@ struct StudyRequest {
   std::vector<std::string> settings;    ///< key=value
   std::string initial;                  ///< file of the initial state, or ""
   std::vector<std::string> methods;     ///< and baselines; none: all
+  std::vector<std::string> contacts;    ///< of those that a method has; none: all
   std::vector<std::string> precisions;  ///< for all methods; none: see precisions_by_default
   std::vector<double> steps;            ///< s, besides those of the sweep
   double every = 0.01;                  ///< s
@@ -24,6 +25,7 @@ struct StudyRequest {
   bool quick = false;
 
   [[nodiscard]] bool wants(std::string_view method) const;
+  [[nodiscard]] bool wants(Contact contact) const;
 };
 
 struct Study {

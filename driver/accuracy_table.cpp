@@ -73,7 +73,7 @@ std::string papers_text(std::span<const TimedRow> rows, const PapersProgram& pap
 
 std::string_view contact_name(const AccuracyRow& row) {
   if (row.baseline == BaselineContact::located) return "located";
-  return row.setting.contact == Contact::resolved ? "resolved" : "listing";
+  return word_of(row.setting.contact);
 }
 
 double error_or_bar(double error, double bar) {

@@ -2,12 +2,12 @@
 //
 // Runs are so cheap here (a whole course of the paper's in some 0.01 s at the largest steps) that
 // nothing need be extrapolated:
-//  1. Two fine courses, by the two methods of the highest order, are the pilot's own reference; by
-//     what they differ is how well it is known. Where a small disturbance grows large, in a
-//     collapse or a long contact, that is much.
-//  2. The scene is run by each method, contact resolved, in double precision and, where that can be
-//     sooner, single, from the largest stable steps down; the error forecast for a setting is its
-//     measured distance from the pilot's reference.
+//  1. Two fine courses are the pilot's own reference: with located contact, by the method of the
+//     highest order; by what they differ is how well it is known. Where a small disturbance grows
+//     large, in a collapse or a long contact, that is much.
+//  2. The scene is run by each method, contact resolved and located, in double precision and, where
+//     that can be sooner, single, from the largest stable steps down; the error forecast for a
+//     setting is its measured distance from the pilot's reference.
 //  3. Run times are measured by turns on the kernel that will run it.
 //  4. Where no setting reaches the error, all steps and those of the pilot are made smaller by a
 //     factor 3. Where the pilot's reference itself is not known well enough, nothing would help:

@@ -196,6 +196,10 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
   command->add_option("--methods", options->study.methods, "These methods and baselines [all]")
       ->delimiter(',');
   command
+      ->add_option("--contacts", options->study.contacts,
+                   "These of a method's contacts: listing, resolved, located [all]")
+      ->delimiter(',');
+  command
       ->add_option("--precisions", options->study.precisions,
                    "These for all methods: double, compensated, single; a line that no kernel runs "
                    "is left out [double; leapfrog and the highest order: all]")

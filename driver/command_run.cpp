@@ -28,6 +28,7 @@
 #include "driver/state_file.hpp"
 #include "driver/step_check.hpp"
 #include "driver/trouble_text.hpp"
+#include "kernels/stepping/located.hpp"
 #include "verify/booking_stepper.hpp"
 #include "verify/listing_frame.hpp"
 #include "verify/oracle_stepper.hpp"
@@ -248,6 +249,11 @@ int run(const Options& options, const std::string& command_line) {
   std::unique_ptr<Stepper> stepper;
   const WallBooks* books = nullptr;
   if (options.ledger) {
+    if (is_located(problem.walls)) {
+      throw InputError(
+          "--ledger: allowed is wall.contact listing or resolved; located contact cuts steps, and "
+          "these books are of whole ones (the monitor's ledger is there in any case)");
+    }
     auto booking = make_booking_stepper(record.scene, problem, record.plan);
     books = &booking->books();
     stepper = std::move(booking);

@@ -101,8 +101,10 @@ Words<Rounding> words_of(Rounding) {
 Words<BallKind> words_of(BallKind) {
   return {{{"rings", BallKind::rings}, {"disc", BallKind::disc}}};
 }
-Words<Contact> words_of(Contact) {
-  return {{{"listing", Contact::listing}, {"resolved", Contact::resolved}}};
+Words<Contact, 3> words_of(Contact) {
+  return {{{"listing", Contact::listing},
+           {"resolved", Contact::resolved},
+           {"located", Contact::located}}};
 }
 Words<Precision, 3> words_of(Precision) {
   return {{{"double", Precision::double_precision},
@@ -242,26 +244,40 @@ const std::vector<Key<Wall>>& wall_keys() {
           "beta", "normal speed returned: -1 (elastic) to 0",
           [](Wall & w) -> auto& { return w.beta; }),
       wall_key(
-          "contact", "listing: the paper's rule; resolved: its limit for small steps",
+          "contact",
+          "listing: the paper's rule; resolved: its limit for small steps; located: that limit, "
+          "each "
+          "contact found to the method's order",
           [](Wall & w) -> auto& { return w.contact; }),
   };
   return keys;
 }
 
-std::string_view word_of(Precision precision) {
-  for (const auto& [word, choice] : words_of(precision)) {
-    if (choice == precision) return word;
+namespace {
+
+template <class Choice>
+std::string_view word_in_scenes(Choice wanted) {
+  for (const auto& [word, choice] : words_of(wanted)) {
+    if (choice == wanted) return word;
   }
   return {};
 }
 
-std::optional<Precision> precision_of(std::string_view word) {
-  for (const auto& [each, choice] : words_of(Precision{})) {
-    if (word == each) return choice;
+template <class Choice>
+std::optional<Choice> choice_of(std::string_view wanted) {
+  for (const auto& [word, choice] : words_of(Choice{})) {
+    if (wanted == word) return choice;
   }
   return {};
 }
 
+}  // namespace
+
+std::string_view word_of(Precision precision) { return word_in_scenes(precision); }
+std::string_view word_of(Contact contact) { return word_in_scenes(contact); }
+std::optional<Precision> precision_of(std::string_view word) { return choice_of<Precision>(word); }
+std::optional<Contact> contact_of(std::string_view word) { return choice_of<Contact>(word); }
 std::string precision_words() { return allowed_for(Precision{}); }
+std::string contact_words() { return allowed_for(Contact{}); }
 
 }  // namespace bounce

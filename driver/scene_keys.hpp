@@ -35,11 +35,14 @@ const std::vector<Key<Scene>>& scene_keys();
 /// The keys of one [[wall]].
 const std::vector<Key<Wall>>& wall_keys();
 
-/// A precision as scene files name it: "double", "compensated" or "single".
+/// A precision or a contact as scene files name it: "double", "listing" ...
 std::string_view word_of(Precision precision);
-/// The precision of that name; nothing if there is none.
+std::string_view word_of(Contact contact);
+/// That of that name; nothing if there is none.
 std::optional<Precision> precision_of(std::string_view word);
+std::optional<Contact> contact_of(std::string_view word);
 /// All names, for messages.
 std::string precision_words();
+std::string contact_words();
 
 }  // namespace bounce

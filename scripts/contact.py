@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The two contact rules as the step goes to 0: a table, CSV and picture from bounce accuracy's rows.
+"""The contact rules as the step goes to 0: a table, CSV and picture from bounce accuracy's rows.
 
-Reads of each SCENE RUNS/contact-SCENE and RUNS/growth-SCENE, and RUNS/growth-example-3 (scripts/contact.sh makes
-them); writes OUT/contact.md, contact.csv, contact.png. From studies of one clean commit only, unless --allow-dirty.
+Reads of each SCENE RUNS/contact-SCENE, located-SCENE and growth-SCENE, and RUNS/growth-example-3 (scripts/contact.sh
+makes them); writes OUT/contact.md, contact.csv, contact.png. From studies of one clean commit only, unless --allow-dirty.
 """
 
 import csv
@@ -20,11 +20,12 @@ try:
 except ImportError as missing:
     sys.exit(f"contact.py: {missing}; install it with: apt-get install python3-matplotlib")
 
-RESOLVED_STEP = 1e-4  # s; the paper's rule has PAPERS_STEP
+NEW_STEP = 1e-4  # s; the paper's rule has PAPERS_STEP
 PAPERS_STEP = 1e-6
 LEAST_FACTOR = 10.0
-# Those with the resolved rule: the simplest, and one whose own error at RESOLVED_STEP is far below the contact's.
-METHODS = ("leapfrog", "blanes-moan-6")
+# What is compared with the paper's: the simplest method, and one whose own error at NEW_STEP is far below the contact's.
+SETTINGS = (("leapfrog", "resolved"), ("leapfrog", "located"), ("blanes-moan-6", "resolved"),
+            ("blanes-moan-6", "located"))
 COLLAPSING = "example-3"
 
 
@@ -62,11 +63,11 @@ def lines_of(scene, study):
     lines = study.lines()
     listing = lines.get(("listing", "listing", "double"), [])
     papers = study.papers()
-    resolved = {method: lines.get((method, "resolved", "double"), []) for method in METHODS}
-    for method, rows in resolved.items():
-        if not papers or not at_step(rows, RESOLVED_STEP):
-            raise RunError(f"{scene}: no row of the paper's program, or none of {method} with resolved contact at "
-                           f"exactly {RESOLVED_STEP:g} s (bounce accuracy --steps)")
+    compared = {", ".join(setting): lines.get((*setting, "double"), []) for setting in SETTINGS}
+    for setting, rows in compared.items():
+        if not papers or not at_step(rows, NEW_STEP):
+            raise RunError(f"{scene}: no row of the paper's program, or none of {setting} at exactly {NEW_STEP:g} s "
+                           "(bounce accuracy --steps)")
     for name in studies.OBSERVABLES:
         limit, bar = extrapolated(listing, name)
         key, known = f"error_{name}", study.bar[f"error_{name}"]
@@ -78,11 +79,11 @@ def lines_of(scene, study):
         line = {"scene": scene, "observable": name, "reference": study.bar[name], "known_to": known,
                 "listing_limit": limit, "listing_limit_bar": bar, "smallest_dt": min(r["dt"] for r in listing),
                 "listing_error_at_1e-6": papers[key]}
-        for method, rows in resolved.items():
-            coarse, same_step = at_step(rows, RESOLVED_STEP), at_step(rows, PAPERS_STEP)
-            line |= {f"{method}_error_at_1e-4": coarse[key], f"{method}_nearer_times": times(coarse),
-                     f"{method}_nearer_times_at_1e-6": times(same_step) if same_step else math.nan,
-                     f"{method}_10_times_nearer_from": nearer_from(rows, times)}
+        for setting, rows in compared.items():
+            coarse, same_step = at_step(rows, NEW_STEP), at_step(rows, PAPERS_STEP)
+            line |= {f"{setting}: error at 1e-4": coarse[key], f"{setting}: nearer": times(coarse),
+                     f"{setting}: nearer at 1e-6": times(same_step) if same_step else math.nan,
+                     f"{setting}: 10 times nearer from": nearer_from(rows, times)}
         yield line
 
 
@@ -92,18 +93,18 @@ def told(value):
 
 def claim_of(rows):
     """What issue 5 asks for, scene by scene: how many times nearer the height is, and which of the rest are."""
-    text = ["| scene | method | height, at 1e-4 s: nearer by a factor | of at least 10 | the other observables, least "
-            "first | height, both at 1e-6 s | height nearer by 10 from this step down, s |", "| --- " * 7 + "|"]
+    text = ["| scene | method, contact | height, at 1e-4 s: nearer by a factor | of at least 10 | the other observables, "
+            "least first | height, both at 1e-6 s | height nearer by 10 from this step down, s |", "| --- " * 7 + "|"]
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = {row["observable"]: row for row in rows if row["scene"] == scene}
         height = of_scene["height"]
-        for method in METHODS:
-            times = {name: row[f"{method}_nearer_times"] for name, row in of_scene.items() if name != "height"}
+        for setting in map(", ".join, SETTINGS):
+            times = {name: row[f"{setting}: nearer"] for name, row in of_scene.items() if name != "height"}
             others = ", ".join(f"{name} {value:.3g}" for name, value in sorted(times.items(), key=lambda item: item[1]))
-            factor = height[f"{method}_nearer_times"]
-            text.append(f"| {scene} | {method} | {factor:.3g} | {'yes' if factor >= LEAST_FACTOR else 'NO'} | {others} "
-                        f"| {told(height[f'{method}_nearer_times_at_1e-6'])} "
-                        f"| {told(height[f'{method}_10_times_nearer_from'])} |")
+            factor = height[f"{setting}: nearer"]
+            text.append(f"| {scene} | {setting} | {factor:.3g} | {'yes' if factor >= LEAST_FACTOR else 'NO'} | {others} "
+                        f"| {told(height[f'{setting}: nearer at 1e-6'])} "
+                        f"| {told(height[f'{setting}: 10 times nearer from'])} |")
     return "\n".join(text) + "\n"
 
 
@@ -144,21 +145,23 @@ def growth_text(growths, rows):
 
 def markdown(rows, some, growths):
     text = ["# The contact rules as the step goes to 0\n",
-            "The resolved rule at Δt = 1e-4 s against the paper's (listing's scheme) at Δt = 1e-6 s: how many times "
-            "nearer it is to the reference, which is the limit Δt → 0. At 1e-4 s, a quarter of the stable step at "
-            "E = 16000, leapfrog's own error counts as well as the contact's, that of blanes-moan-6 does not; last the "
-            "same with both at 1e-6 s, and the step from which on all that were run are nearer by a factor 10. For "
-            "alpha = 1, beta = -1 (example-6) the two rules are the same, and what is compared are the methods.\n",
+            "Resolved and located contact at Δt = 1e-4 s against the paper's (listing's scheme) at Δt = 1e-6 s: how many "
+            "times nearer they are to the reference, which is the limit Δt → 0. At 1e-4 s, a quarter of the stable step "
+            "at E = 16000, leapfrog's own error counts as well as the contact's, that of blanes-moan-6 does not; last "
+            "the same with both at 1e-6 s, and the step from which on all that were run are nearer by a factor 10. For "
+            "alpha = 1, beta = -1 (example-6) the resolved rule is the paper's, and what is compared are the methods.\n",
             claim_of(rows), growth_text(growths, rows),
             "In full: the paper's rule extrapolated from its smallest steps, ± what leaving out the smallest changes; the "
             "errors. Known to: what the two references differ by; nothing below counts.\n",
             "| scene | observable | reference | known to | paper's rule, Δt → 0 | smallest Δt | its error at 1e-6 "
-            + "".join(f"| {method}, resolved, error at 1e-4 | nearer " for method in METHODS) + "|", "| --- " * 11 + "|"]
+            + "".join(f"| {', '.join(setting)}: error at 1e-4 | nearer " for setting in SETTINGS) + "|",
+            "| --- " * (7 + 2 * len(SETTINGS)) + "|"]
     for r in rows:
         text.append(f"| {r['scene']} | {r['observable']} | {r['reference']:.9g} | {r['known_to']:.1e} "
                     f"| {r['listing_limit']:.9g} ± {r['listing_limit_bar']:.1e} | {r['smallest_dt']:.1e} "
                     f"| {r['listing_error_at_1e-6']:.1e} "
-                    + "".join(f"| {r[f'{m}_error_at_1e-4']:.1e} | {r[f'{m}_nearer_times']:.3g} " for m in METHODS) + "|")
+                    + "".join(f"| {r[f'{setting}: error at 1e-4']:.1e} | {r[f'{setting}: nearer']:.3g} "
+                              for setting in map(", ".join, SETTINGS)) + "|")
     text += ["\n![errors of the height](results/contact.png)\n",
              f"Made by `scripts/contact.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}.", ""]
     return "\n".join(text)
@@ -183,7 +186,12 @@ def draw(found, path):
 
 def make(arguments, folder):
     found = studies.read_studies(arguments, "contact")
-    studies.one_commit(found)
+    others = studies.read_studies(arguments, "located")
+    studies.one_commit([*found.values(), *others.values()])
+    for scene, study in found.items():
+        known = {(row["method"], row["contact"], row["dt"]) for row in study.rows}
+        study.rows += [row for row in others[scene].rows
+                       if (row["method"], row["contact"], row["dt"]) not in known]
     rows = [line for scene, study in found.items() for line in lines_of(scene, study)]
     origin = next(iter(found.values())).origin
     growths = {scene: read_growth(arguments.runs, scene, origin["commit"]) for scene in (*found, COLLAPSING)}

@@ -1,6 +1,6 @@
 #include "verify/baseline_gsl.hpp"
 
-#include "verify/contact_course.hpp"
+#include "kernels/stepping/contact_course.hpp"
 #include "verify/gsl_flow.hpp"
 
 namespace bounce {

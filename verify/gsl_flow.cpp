@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "verify/reference_solution.hpp"
 #include "verify/spectrum.hpp"
 
 namespace bounce {

@@ -1,5 +1,5 @@
 // Solution one: GSL's rk8pd in double precision, steps as large as their error allows.
-#include "verify/contact_course.hpp"
+#include "kernels/stepping/contact_course.hpp"
 #include "verify/gsl_flow.hpp"
 #include "verify/reference_solution.hpp"
 

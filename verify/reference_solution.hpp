@@ -22,47 +22,24 @@
 // that no step can follow, as of a ball that collapses into points.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <string_view>
-#include <vector>
 
 #include "kernels/model/problem.hpp"
 #include "kernels/model/state.hpp"
+#include "kernels/stepping/contact_run.hpp"
 
 namespace bounce {
 
 /// What cannot be solved: one sentence.
-class ReferenceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using ReferenceError = ContactError;
 
-/// What happened between a particle and a wall.
-enum class ContactKind {
-  lands,     ///< it met the wall and rests on it
-  bounces,   ///< it met the wall and left it at once
-  releases,  ///< it rested and was pulled off
-};
 /// "lands" ...
 std::string_view name_of(ContactKind kind);
 
-struct ContactEvent {
-  double time = 0.0;         ///< s
-  std::size_t particle = 0;  ///< from 0
-  std::size_t wall = 0;      ///< from 0
-  ContactKind kind = ContactKind::lands;
-};
-
 /// What a solution did.
-struct ReferenceRun {
-  std::vector<ContactEvent> events;  ///< in the order of time
-  std::int64_t steps = 0;            ///< taken, those that were cut at an event too
-  std::int64_t evaluations = 0;      ///< of the force, with those of steps not taken
-  double height_cut = 0.0;           ///< cm
-};
+using ReferenceRun = ContactRun;
 
 /// Called at each output time with the state there (rounded to double). It may throw to stop.
 using ReferenceVisitor = std::function<void(double time, const State& state)>;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <memory>
 
 #include "kernels/stepping/ensemble.hpp"
+#include "kernels/stepping/located.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "kernels/stepping/ring_forms.hpp"
 
@@ -62,6 +64,12 @@ std::vector<bool> run_trials(std::span<const Problem> problems, std::span<const 
   };
   if (!find_ring_form(problems.front()).refusal.empty()) {
     return run_each_alone(problems, steps, look_every, is_good, options);
+  }
+  // Of the walls' limit for small steps the ensemble has one rule.
+  std::vector<Problem> resolved;
+  if (is_located(problems.front().walls)) {
+    std::transform(problems.begin(), problems.end(), std::back_inserter(resolved), as_resolved);
+    problems = resolved;
   }
   const PlanRequest request{"auto", options.vector, options.threads};
   Ensemble ensemble(problems, request, is_good, look_every);

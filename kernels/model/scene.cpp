@@ -122,6 +122,10 @@ void validate_walls(const std::vector<Wall>& walls) {
     need(key + ".offset", wall.offset, -largest, largest, "a finite number");
     need(key + ".alpha", wall.alpha, 0.0, 1.0, "0 (full friction) to 1 (frictionless)");
     need(key + ".beta", wall.beta, -1.0, 0.0, "-1 (elastic) to 0");
+    if ((wall.contact == Contact::located) != (walls.front().contact == Contact::located)) {
+      throw SceneError(key + ".contact", wall.contact == Contact::located ? "located" : "another",
+                       "located for all walls or for none, as it cuts the steps of the whole ball");
+    }
   }
 }
 

@@ -66,6 +66,7 @@ struct LawSpec {
 enum class Contact {
   listing,   ///< the paper's: mirrored at the end of the drift that crossed the wall
   resolved,  ///< its limit for small steps: the crossing located, what is pressed on sticks
+  located,   ///< that limit to the method's order: the step is cut at each contact (located.hpp)
 };
 
 /// A rigid half-plane. The ball stays where normal.x > offset; a particle that does not is

@@ -12,7 +12,7 @@ Motion after_wall(const Wall& wall, double drift, const Motion& behind) {
   const double s = wall_distance(wall, x.x, x.y);
   const double normal = n.x * v.x + n.y * v.y;
   const Vec2 t{v.x - normal * n.x, v.y - normal * n.y};
-  const bool resolved = wall.contact == Contact::resolved;
+  const bool resolved = wall.contact != Contact::listing;
   double alpha = wall.alpha;
   double lift = 2.0 * s, back = 0.0;
   if (resolved) {
@@ -29,7 +29,7 @@ Motion after_wall(const Wall& wall, double drift, const Motion& behind) {
 
 bool any_resolved(const std::vector<Wall>& walls) {
   return std::any_of(walls.begin(), walls.end(),
-                     [](const Wall& wall) { return wall.contact == Contact::resolved; });
+                     [](const Wall& wall) { return wall.contact != Contact::listing; });
 }
 
 }  // namespace bounce

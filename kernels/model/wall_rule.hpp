@@ -40,7 +40,7 @@ struct Motion {
 /// there, s, not negative.
 Motion after_wall(const Wall& wall, double drift, const Motion& behind);
 
-/// True if one of them has resolved contact.
+/// True if one of them has another contact than the listing's.
 bool any_resolved(const std::vector<Wall>& walls);
 
 /// Drifts for which a particle can have been behind a wall. More than one if a stage stepped back

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kernels/model/wall_rule.hpp"
+#include "kernels/stepping/located.hpp"
 #include "kernels/stepping/scene_forms.hpp"
 
 namespace bounce {
@@ -42,6 +43,17 @@ std::string prepare(const KernelEntry& entry, const Problem& problem, const Plan
   if (any_resolved(problem.walls)) plan.walls += ", contact resolved";
   plan.left_out = left_out(law, walls);
   return entry.prepare(problem, request, plan);
+}
+
+// The plan of the kernel that flies (located.hpp).
+Plan make_located_plan(const Problem& problem, const PlanRequest& request,
+                       std::span<const KernelEntry> entries) {
+  const std::string refusal = located_refusal(problem);
+  if (!refusal.empty()) throw PlanError("this scene cannot be run: " + refusal);
+  Plan plan = make_plan(as_resolved(problem), request, entries);
+  plan.walls = describe(wall_form(problem)) + ", contact located";
+  plan.left_out.emplace_back("wall test where no wall is near");
+  return plan;
 }
 
 }  // namespace
@@ -94,6 +106,7 @@ std::vector<VectorTarget> available_vectors() {
 Plan make_plan(const Problem& problem, const PlanRequest& request,
                std::span<const KernelEntry> entries) {
   check_threads(request.threads);
+  if (is_located(problem.walls)) return make_located_plan(problem, request, entries);
   const bool automatic = request.kernel == "auto";
   Plan fresh;
   fresh.vector = choose_vector(request.vector);
@@ -123,6 +136,10 @@ Plan make_plan(const Problem& problem, const PlanRequest& request,
 
 std::unique_ptr<Stepper> make_stepper(const Problem& problem, const Plan& plan,
                                       std::span<const KernelEntry> entries) {
+  if (is_located(problem.walls)) {
+    return make_located(problem,
+                        [&](const Problem& open) { return make_stepper(open, plan, entries); });
+  }
   auto stepper = find_entry(plan.kernel, entries).make(problem, plan);
   if (!stepper) throw PlanError("kernel " + plan.kernel + " has no form for this plan");
   return stepper;

@@ -10,9 +10,10 @@ namespace bounce {
 /// A state as a kernel holds it between steps: enough to go on, bit for bit, as if never stopped.
 struct Snapshot {
   State state;
-  bool stage_held = false;  ///< the last stage of the last step is still due (method.hpp)
-  std::int64_t step = 0;    ///< steps taken
-  State low = {};           ///< what the state's doubles do not hold (Precision), or empty
+  bool stage_held = false;        ///< the last stage of the last step is still due (method.hpp)
+  std::int64_t step = 0;          ///< steps taken
+  State low = {};                 ///< what the state's doubles do not hold (Precision), or empty
+  std::int64_t flies_until = -1;  ///< of located.hpp: step up to which no wall is near; -1: one is
 };
 
 /// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.

@@ -37,8 +37,8 @@ def read_studies(arguments, name):
     return found
 
 
-def one_commit(found):
+def one_commit(all_studies):
     """RunError if the studies are not of one commit: some rows are compared across scenes, or told with one origin."""
-    commits = sorted({study.origin["commit"] for study in found.values()})
+    commits = sorted({study.origin["commit"] for study in all_studies})
     if len(commits) > 1:
         raise RunError(f"commits {', '.join(commits)}: allowed is one clean commit for all")

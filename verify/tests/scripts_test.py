@@ -385,10 +385,17 @@ class Contact(unittest.TestCase):
         """The paper's rule is off by 1000 dt, the resolved by dt^2 x 1000."""
         return [*(self.row("listing", "listing", step, 1e3 * step) for step in (1e-4, 1e-5, 1e-6, 1e-7)),
                 self.row("leapfrog", "resolved", resolved_step, 1e-5),
-                self.row("blanes-moan-6", "resolved", 1e-4, 1e-6), self.row("blanes-moan-6", "resolved", 1e-5, 1e-5),
                 self.row("leapfrog", "resolved", 1e-4, 1e-2, precision="compensated"),
                 self.row("leapfrog", "listing", 1e-4, 1e-3, precision="single"),
                 self.row("gsl-bsimp", "located", "nan", math.inf, note='"too long, said ""it"""')]
+
+    def located(self, *more, scenes="a", commit="abc"):
+        """The other study that contact.py reads."""
+        rows = [self.row("leapfrog", "resolved", 1e-4, 7.0),  # of the same step as in contact-a, which counts
+                self.row("leapfrog", "located", 1e-4, 1e-5), self.row("blanes-moan-6", "resolved", 1e-4, 1e-6),
+                self.row("blanes-moan-6", "resolved", 1e-5, 1e-5), self.row("blanes-moan-6", "located", 1e-4, 1e-7)]
+        for scene in scenes:
+            self.study(f"located-{scene}", [*rows, *more], commit)
 
     def growth(self, commit="abc"):
         for scene, end in (("a", 1e-3), ("b", 1e-3), ("example-3", 1.0)):
@@ -402,9 +409,10 @@ class Contact(unittest.TestCase):
         return subprocess.run([SCRIPTS / name, "--runs", self.folder / "runs", "--out", self.folder / "out", *words],
                               capture_output=True, text=True, check=False)
 
-    def contacts(self, rows):
+    def contacts(self, rows, *more):
         """The text of contact.md."""
         self.study("contact-a", rows)
+        self.located(*more)
         self.growth()
         done = self.run_script("contact.py", "a")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -413,15 +421,16 @@ class Contact(unittest.TestCase):
     def test_the_factor_is_that_of_the_exact_steps(self):
         text = self.contacts(self.rows())
         # No row to compare at 1e-6; nearer by 10 at the one step there is.
-        self.assertRegex(text, r"\| a \| leapfrog \| 100 \| yes \| speed 100, .* \| - \| 0.0001 \|\n")
+        self.assertRegex(text, r"\| a \| leapfrog, resolved \| 100 \| yes \| speed 100, .* \| - \| 0.0001 \|\n")
         self.assertIn("| a | height | 5 | 1.0e-12 | 5 ± ", text)  # the limit of the paper's rule
         self.assertTrue((self.folder / "out" / "contact.png").is_file())
 
     def test_the_methods_have_a_line_each(self):
-        rows = [*self.rows(), self.row("blanes-moan-6", "resolved", 1e-6, 1e-5)]
-        text = self.contacts([*rows, self.row("blanes-moan-6", "resolved", 1e-7, 2e-4)])
+        text = self.contacts(self.rows(), self.row("blanes-moan-6", "resolved", 1e-6, 1e-5),
+                             self.row("blanes-moan-6", "resolved", 1e-7, 2e-4))
         # The smallest step is not nearer by 10, so there is none from which on all are.
-        self.assertRegex(text, r"\| a \| blanes-moan-6 \| 1e\+03 \| yes \| .* \| 100 \| - \|\n")
+        self.assertRegex(text, r"\| a \| blanes-moan-6, resolved \| 1e\+03 \| yes \| .* \| 100 \| - \|\n")
+        self.assertRegex(text, r"\| a \| blanes-moan-6, located \| 1e\+04 \| yes \| ")
 
     def test_the_growth_of_a_difference_tells_the_error_allowed(self):
         text = self.contacts(self.rows())
@@ -432,16 +441,17 @@ class Contact(unittest.TestCase):
     def test_a_factor_that_is_too_small_is_told(self):
         rows = [*self.rows(), self.row("leapfrog", "resolved", 1e-6, 1e-7)]
         rows[4] = self.row("leapfrog", "resolved", 1e-4, 2e-4)
-        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog \| 5 \| NO \| .* \| 1e\+04 \| 1e-06 \|\n")
+        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog, resolved \| 5 \| NO \| .* \| 1e\+04 \| 1e-06 \|\n")
 
     def test_no_number_is_no_factor(self):
         rows = self.rows()
         rows[4] = self.row("leapfrog", "resolved", 1e-4, math.nan)
-        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog \| nan \| NO \| .* \| - \| - \|\n")
+        self.assertRegex(self.contacts(rows), r"\| a \| leapfrog, resolved \| nan \| NO \| .* \| - \| - \|\n")
 
     def test_what_is_not_there_is_named(self):
         self.study("contact-a", self.rows(resolved_step=1.01e-4))
         self.study("contact-b", self.rows(), commit="abc-dirty")
+        self.located(scenes="ab")
         self.growth()
         for scene, text in (("a", "at exactly 0.0001 s"), ("b", "a clean commit"), ("c", "cannot be read")):
             done = self.run_script("contact.py", scene)
@@ -477,6 +487,7 @@ class Contact(unittest.TestCase):
     def test_one_table_of_contacts_is_of_one_commit(self):
         self.study("contact-a", self.rows(), commit="first")
         self.study("contact-b", self.rows(), commit="second")
+        self.located(scenes="ab", commit="first")
         self.growth()
         done = self.run_script("contact.py", "a", "b")
         self.assertEqual(done.returncode, 2)

@@ -1,11 +1,11 @@
-// The accelerations of all particles, in the arithmetic of a reference solution.
+// The accelerations of all particles, one by one, in any arithmetic: for the reference solutions
+// and for steps with contacts that are located.
 //
 //  1. Each bond once: half the divisions of the listing's way, and the forces of a bond are
 //  opposite
 //     to the last bit, so that they leave the total momentum alone.
-//  2. One template for both arithmetics: what they shall not share is rounding and time stepping,
-//  not
-//     the model. (That the model itself is right is for the oracle to say.)
+//  2. One template for all arithmetics: what two references shall not share is rounding and time
+//     stepping, not the model. (That the model itself is right is for the oracle to say.)
 //  3. F(R)/R = -G u^a + H u^b with u = 1/R^2, a = (p+1)/2, b = (q+1)/2. For the paper's law that is
 //     u^2 (H u - G), no root; other laws go through pow, which costs three times as much.
 //
@@ -38,9 +38,9 @@ struct Pull {
 };
 
 template <class Real>
-class ReferenceForces {
+class ScalarForces {
  public:
-  explicit ReferenceForces(const Problem& problem)
+  explicit ScalarForces(const Problem& problem)
       : problem_(&problem),
         particles_(problem.initial.size()),
         is_papers_(problem.law.p == 3.0 && problem.law.q == 5.0),

@@ -1,5 +1,5 @@
 // The course of a motion between contacts: when a particle meets a wall or is pulled off it, and
-// what happens then (reference_solution.hpp has the rules). A template over the way a step is made:
+// what happens then (located.hpp has the rules). A template over the way a step is made:
 //
 //   attempt ----> [start ........................ end]     one step, as long as the flow likes
 //   scan          which gauge crosses 0 first?             none: the step is taken
@@ -16,21 +16,25 @@
 //  4. Several particles in a step: the earliest goes first. Those within some roundings of the time
 //     (a mirror pair of a symmetric ball) go together.
 //  5. A particle that has just touched a wall stands on it to rounding. It is "unarmed" until it
-//  has
-//     risen by more than that, and meanwhile its gauge is raised by as much, so that roundings are
-//     no contacts.
+//     has risen by more than that, and meanwhile its gauge is raised by as much, so that roundings
+//     are no contacts.
+//
+// The reference solutions follow a whole course (run); a stepper takes it step by step (step), each
+// from what the state alone says, so that it can begin again anywhere.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "verify/reference_forces.hpp"
-#include "verify/reference_solution.hpp"
+#include "kernels/model/problem.hpp"
+#include "kernels/stepping/contact_run.hpp"
+#include "kernels/stepping/scalar_forces.hpp"
 
 namespace bounce {
 
@@ -51,6 +55,9 @@ class Resting {
     particles_.erase(std::find(particles_.begin(), particles_.end(), i));
   }
   [[nodiscard]] const std::vector<std::size_t>& particles() const { return particles_; }
+  void release_all() {
+    while (!particles_.empty()) release(particles_.back());
+  }
   /// Takes from a vector of each particle (accelerations, velocities) what its wall does not let it
   /// have: all of it if it sticks, the normal part if it slides.
   template <class Real>
@@ -90,33 +97,53 @@ class ContactCourse {
         resting_(problem),
         armed_(n_ * problem.walls.size(), false),
         state_(4 * n_) {
-    Real largest = 0;
-    const State& s = problem.initial;
-    for (std::size_t i = 0; i < n_; ++i) {
-      largest = std::max(
-          {largest, std::abs(static_cast<Real>(s.x[i])), std::abs(static_cast<Real>(s.y[i]))});
-      const StateParts<Real> to(state_.data(), n_);
-      to.x[i] = static_cast<Real>(s.x[i]);
-      to.y[i] = static_cast<Real>(s.y[i]);
-      to.vx[i] = static_cast<Real>(s.vx[i]);
-      to.vy[i] = static_cast<Real>(s.vy[i]);
-    }
-    // A distance has the roundings of two products and two sums.
-    floor_ = 4 * std::numeric_limits<Real>::epsilon() * largest;
+    set(problem.initial);
+    floor_ = roundings();
   }
 
-  ReferenceRun run(std::span<const double> times, const ReferenceVisitor& visit) {
+  /// From the problem's start to the last of `times`, each of which is handed to `visit`.
+  ContactRun run(std::span<const double> times,
+                 const std::function<void(double, const State&)>& visit) {
+    behind_is_refused_ = true;
     result_.height_cut = static_cast<double>(floor_);
     begin_at_walls();
     restart();
     for (const double output : times) {
       const auto until = static_cast<Real>(output);
       while (time_ < until) advance(until);
-      visit(output, rounded());
+      visit(output, rounded(start()));
     }
     result_.evaluations = flow_.evaluations();
     return std::move(result_);
   }
+
+  /// `length` (s) from `state` on. What rests on a wall is what stands on it, does not move and is
+  /// pressed to it. A particle behind a wall is put onto it (beta = -1: mirrored). Where the motion
+  /// is too wild to follow, the rest of the step knows no walls.
+  void step(Real length, State& state) {
+    constexpr std::size_t most_events = 20'000;
+    time_ = 0;
+    result_.events.clear();
+    std::fill(armed_.begin(), armed_.end(), false);
+    resting_.release_all();
+    set(state);
+    floor_ = roundings();
+    begin_at_walls();
+    restart();
+    const std::size_t standing = result_.events.size();
+    try {
+      while (time_ < length && result_.events.size() < standing + most_events) advance(length);
+      if (time_ < length) {
+        flow_.attempt(length - time_);
+        flow_.accept();
+      }
+      state = rounded(start());
+    } catch (const ContactError&) {  // not finite: for the caller to see
+      state = rounded(end());
+    }
+  }
+  /// Of the last step: what happened in it, after what stood on walls at its start.
+  [[nodiscard]] const ContactRun& result() const { return result_; }
 
  private:
   struct Gauge {
@@ -128,6 +155,13 @@ class ContactCourse {
     bool dips;  // it only comes near 0
   };
   using Parts = StateParts<const Real>;
+
+  // Of a distance: of two products and two sums.
+  [[nodiscard]] Real roundings() const {
+    Real largest = 0;
+    for (std::size_t k = 0; k < 2 * n_; ++k) largest = std::max(largest, std::abs(state_[k]));
+    return 4 * std::numeric_limits<Real>::epsilon() * largest;
+  }
 
   [[nodiscard]] Parts start() const { return {flow_.start().data(), n_}; }
   [[nodiscard]] Parts end() const { return {flow_.end().data(), n_}; }
@@ -304,10 +338,10 @@ class ContactCourse {
   void meet(std::size_t i, std::size_t w) {
     const Wall& wall = problem_.walls[w];
     if (resting_.wall_of(i) >= 0) {
-      throw ReferenceError("particle " + std::to_string(i + 1) + " slides along wall[" +
-                           std::to_string(resting_.wall_of(i)) + "] into wall[" +
-                           std::to_string(w) + "] at t = " + text(time_) +
-                           " s: a corner, which the reference does not solve");
+      throw ContactError("particle " + std::to_string(i + 1) + " slides along wall[" +
+                         std::to_string(resting_.wall_of(i)) + "] into wall[" + std::to_string(w) +
+                         "] at t = " + text(time_) +
+                         " s: a corner, which the reference does not solve");
     }
     const StateParts<Real> s(state_.data(), n_);
     const auto nx = static_cast<Real>(wall.normal.x), ny = static_cast<Real>(wall.normal.y);
@@ -336,13 +370,16 @@ class ContactCourse {
       const Wall& wall = problem_.walls[w];
       const auto nx = static_cast<Real>(wall.normal.x), ny = static_cast<Real>(wall.normal.y);
       for (std::size_t i = 0; i < n_; ++i) {
+        if (!may_act(i, w)) continue;
         const Gauge at = distance(i, wall, now());
-        if (at.value < -floor_) {
+        if (at.value < -floor_ && wall.beta != -1.0 && !behind_is_refused_) {
+          meet(i, w);
+        } else if (at.value < -floor_) {
           if (wall.beta != -1.0) {
-            throw ReferenceError("particle " + std::to_string(i + 1) + " starts " +
-                                 text(-at.value) + " cm behind wall[" + std::to_string(w) +
-                                 "]: allowed is a start in front of it, or beta = -1 (the contact "
-                                 "rules put it in different places)");
+            throw ContactError("particle " + std::to_string(i + 1) + " starts " + text(-at.value) +
+                               " cm behind wall[" + std::to_string(w) +
+                               "]: allowed is a start in front of it, or beta = -1 (the contact "
+                               "rules put it in different places)");
           }
           const StateParts<Real> s(state_.data(), n_);
           const Real along = static_cast<Real>(wall.alpha) * (ny * s.vx[i] - nx * s.vy[i]);
@@ -363,8 +400,8 @@ class ContactCourse {
     constexpr std::size_t most_events = 5'000'000;
     result_.events.push_back({static_cast<double>(time_), i, w, kind});
     if (result_.events.size() > most_events) {
-      throw ReferenceError("more than 5 million contacts by t = " + text(time_) +
-                           " s: too many to follow one by one");
+      throw ContactError("more than 5 million contacts by t = " + text(time_) +
+                         " s: too many to follow one by one");
     }
   }
 
@@ -379,14 +416,23 @@ class ContactCourse {
     Real sum = 0;
     for (const Real value : flow_.end()) sum += value - value;
     if (!(sum == 0)) {
-      throw ReferenceError("no step follows the motion at t = " + text(time_) +
-                           " s: a position or velocity is not finite");
+      throw ContactError("no step follows the motion at t = " + text(time_) +
+                         " s: a position or velocity is not finite");
     }
   }
 
-  [[nodiscard]] State rounded() const {
+  void set(const State& s) {
+    const StateParts<Real> to(state_.data(), n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      to.x[i] = static_cast<Real>(s.x[i]);
+      to.y[i] = static_cast<Real>(s.y[i]);
+      to.vx[i] = static_cast<Real>(s.vx[i]);
+      to.vy[i] = static_cast<Real>(s.vy[i]);
+    }
+  }
+
+  [[nodiscard]] State rounded(const Parts& s) const {
     State state(n_);
-    const Parts s = start();
     for (std::size_t i = 0; i < n_; ++i) {
       state.x[i] = static_cast<double>(s.x[i]);
       state.y[i] = static_cast<double>(s.y[i]);
@@ -405,7 +451,8 @@ class ContactCourse {
   std::vector<Real> state_;  // 4 n
   Real floor_ = 0;           // roundings of a distance, cm
   Real time_ = 0;
-  ReferenceRun result_;
+  bool behind_is_refused_ = false;
+  ContactRun result_;
 };
 
 }  // namespace bounce
