@@ -95,17 +95,30 @@ TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
        {"\nleapfrog,listing,double,", "\nleapfrog,resolved,double,",
         "\nleapfrog,resolved,compensated,", "\nleapfrog,listing,single,",
         "\nblanes-moan-6,resolved,compensated,", "\nblanes-moan-6,listing,single,",
-        "\nyoshida-4,resolved,double,", ",ring,", ",mirror,"}) {
+        "\nyoshida-4,resolved,double,", "\nyoshida-4,located,double,",
+        "\nleapfrog,located,double,", ",ring,", ",mirror,"}) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
   for (const char* row : {"\nyoshida-4,resolved,compensated,", "\nyoshida-4,listing,",
-                          "\nleapfrog,listing,compensated,", ",resolved,single,"}) {
+                          "\nleapfrog,listing,compensated,", ",resolved,single,",
+                          ",located,compensated,", ",located,single,"}) {
     EXPECT_EQ(csv.find(row), std::string::npos) << row << csv;
   }
   // Half of the 1.5 decades where there are many evaluations.
   EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,double,"), 4) << csv;
   EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,compensated,"), 3) << csv;
   EXPECT_EQ(count(csv, "\nleapfrog,resolved,compensated,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nyoshida-4,located,double,"), 3) << csv;
+}
+
+TEST_F(DriverAccuracyTest, HasTheContactsAskedFor) {
+  ASSERT_EQ(run(impact + "--methods leapfrog --precisions double --contacts located --quick"), 0)
+      << err();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  EXPECT_EQ(count(csv, "\nleapfrog,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nlisting,listing,double,1e-06,"), 1) << csv;  // the paper's is always there
 }
 
 TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
@@ -137,6 +150,8 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
     EXPECT_FALSE(fs::exists(folder_ / "bad")) << words;
   };
   refused("example-1 --methods euler", "--methods euler: unknown; allowed is listing");
+  refused("example-1 --contacts sticky",
+          "--contacts sticky: unknown; allowed is \"listing\", \"resolved\" or \"located\"");
   refused("example-1 --precisions half",
           "--precisions half: unknown; allowed is \"double\", \"compensated\" or \"single\"");
   refused("example-1 --steps 1e-4,3e-3", "--steps 0.003: allowed is a whole part of 0.01 s");
@@ -148,7 +163,7 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
   refused("example-1 --per-decade 0", "--per-decade 0: allowed is 1 to 100");
   refused("example-1 --threads 1000", "allowed");
   refused("example-9", "example-9");
-  refused("example-1 --set wall.contact=glue", "\"listing\" or \"resolved\"");
+  refused("example-1 --set wall.contact=glue", "\"listing\", \"resolved\" or \"located\"");
 }
 
 // What was forecast comes out: the run's last row against the reference's height.

@@ -178,6 +178,21 @@ TEST_F(DriverRunTest, BookingEveryReflectionChangesNoBit) {
   }
 }
 
+TEST_F(DriverRunTest, LocatedContactRunsAndHasNoBooks) {
+  const Words located{"--set", "wall.contact=located", "--set", "time.method=leapfrog"};
+  Words words = to_the_wall({"--out", "r"});
+  words.insert(words.end(), located.begin(), located.end());
+  ASSERT_EQ(run(words), 0) << err();
+  EXPECT_NE(out().find("contact located"), std::string::npos) << out();
+  EXPECT_NE(out().find("ledgers close on the "), std::string::npos) << out();
+  words = to_the_wall({"--ledger", "--out", "s"});
+  words.insert(words.end(), located.begin(), located.end());
+  EXPECT_EQ(run(words), 2);
+  EXPECT_NE(err().find("--ledger: allowed is wall.contact listing or resolved"), std::string::npos)
+      << err();
+  EXPECT_FALSE(fs::exists(folder_ / "s"));
+}
+
 TEST_F(DriverRunTest, AnUnstableRunWithBooksEndsAsWithout) {
   const Words words{"run",
                     "example-2",
