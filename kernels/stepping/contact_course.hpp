@@ -367,30 +367,34 @@ class ContactCourse {
   // Starts at a wall or behind it.
   void begin_at_walls() {
     for (std::size_t w = 0; w < problem_.walls.size(); ++w) {
-      const Wall& wall = problem_.walls[w];
-      const auto nx = static_cast<Real>(wall.normal.x), ny = static_cast<Real>(wall.normal.y);
       for (std::size_t i = 0; i < n_; ++i) {
-        if (!may_act(i, w)) continue;
-        const Gauge at = distance(i, wall, now());
-        if (at.value < -floor_ && wall.beta != -1.0 && !behind_is_refused_) {
-          meet(i, w);
-        } else if (at.value < -floor_) {
-          if (wall.beta != -1.0) {
-            throw ContactError("particle " + std::to_string(i + 1) + " starts " + text(-at.value) +
-                               " cm behind wall[" + std::to_string(w) +
-                               "]: allowed is a start in front of it, or beta = -1 (the contact "
-                               "rules put it in different places)");
-          }
-          const StateParts<Real> s(state_.data(), n_);
-          const Real along = static_cast<Real>(wall.alpha) * (ny * s.vx[i] - nx * s.vy[i]);
-          s.x[i] -= 2 * at.value * nx;
-          s.y[i] -= 2 * at.value * ny;
-          s.vx[i] = ny * along - nx * at.slope;
-          s.vy[i] = -nx * along - ny * at.slope;
-        } else if (at.value <= floor_ && at.slope <= 0) {
-          meet(i, w);
-        }
+        if (may_act(i, w)) begin_at_wall(i, w, distance(i, problem_.walls[w], now()));
       }
+    }
+  }
+
+  void begin_at_wall(std::size_t i, std::size_t w, const Gauge& at) {
+    const Wall& wall = problem_.walls[w];
+    const auto nx = static_cast<Real>(wall.normal.x), ny = static_cast<Real>(wall.normal.y);
+    const StateParts<Real> s(state_.data(), n_);
+    const bool behind = at.value < -floor_;
+    if (behind && wall.beta == -1.0) {
+      const Real along = static_cast<Real>(wall.alpha) * (ny * s.vx[i] - nx * s.vy[i]);
+      s.x[i] -= 2 * at.value * nx;
+      s.y[i] -= 2 * at.value * ny;
+      s.vx[i] = ny * along - nx * at.slope;
+      s.vy[i] = -nx * along - ny * at.slope;
+    } else if (behind && behind_is_refused_) {
+      throw ContactError(
+          "particle " + std::to_string(i + 1) + " starts " + text(-at.value) + " cm behind wall[" +
+          std::to_string(w) +
+          "]: allowed is a start in front of it, or beta = -1 (the contact rules put "
+          "it in different places)");
+    } else if (behind && at.slope > 0) {  // on its way out
+      s.x[i] -= at.value * nx;
+      s.y[i] -= at.value * ny;
+    } else if (at.value <= floor_ && at.slope <= 0) {
+      meet(i, w);
     }
   }
 

@@ -21,7 +21,7 @@ namespace bounce {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const double nan_ = std::nan("");
+const double nan = std::nan("");
 
 // Example 1's ball, 0.002 cm above the floor at the speed of its fall: contact within 3 ms.
 Scene impact_scene() {
@@ -86,7 +86,7 @@ TEST(CourseGauge, NothingIsKnownOfACourseThatIsNotFinite) {
   good.add(0.0, state);
   good.add(1.0, state);
   bad.add(0.0, state);
-  state.vx[7] = nan_;
+  state.vx[7] = nan;
   EXPECT_FALSE(bad.add(1.0, state));
   const CourseErrors errors = errors_of(bad.result(), good.result());
   EXPECT_EQ(errors.position, infinity);
@@ -261,7 +261,7 @@ TEST(Advice, TriesSinglePrecisionWhereItCanBeSooner) {
     spinning.vy[i] -= 0.1 * (spinning.x[i] - scene.ball.centre.x);
   }
   const std::size_t open = courses(scene, {});
-  EXPECT_EQ(walled, open + std::size_t{6 * 5});
+  EXPECT_EQ(walled, open + std::size_t{6} * 5);
   EXPECT_EQ(courses(scene, spinning), 2 * open - 2);
 }
 
@@ -326,7 +326,7 @@ TEST(CheapestAsGood, MustBeAsGoodInAll) {
                              timed(2e-3, 1.0), timed(1e-5, 2.0)};
   rows[4].row.errors.observables.speed = 1.1e-3;
   EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), 2U);
-  rows[4].row.errors.observables.speed = nan_;
+  rows[4].row.errors.observables.speed = nan;
   EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), 2U);
   rows[4].row.errors.observables.speed = 1e-3;
   EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), 4U);

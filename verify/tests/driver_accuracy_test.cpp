@@ -95,8 +95,8 @@ TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
        {"\nleapfrog,listing,double,", "\nleapfrog,resolved,double,",
         "\nleapfrog,resolved,compensated,", "\nleapfrog,listing,single,",
         "\nblanes-moan-6,resolved,compensated,", "\nblanes-moan-6,listing,single,",
-        "\nyoshida-4,resolved,double,", "\nyoshida-4,located,double,",
-        "\nleapfrog,located,double,", ",ring,", ",mirror,"}) {
+        "\nyoshida-4,resolved,double,", "\nyoshida-4,located,double,", "\nleapfrog,located,double,",
+        ",ring,", ",mirror,"}) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
   for (const char* row : {"\nyoshida-4,resolved,compensated,", "\nyoshida-4,listing,",
@@ -118,7 +118,8 @@ TEST_F(DriverAccuracyTest, HasTheContactsAskedFor) {
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
   EXPECT_EQ(count(csv, "\nleapfrog,"), 4) << csv;
   EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nlisting,listing,double,1e-06,"), 1) << csv;  // the paper's is always there
+  EXPECT_EQ(count(csv, "\nlisting,listing,double,1e-06,"), 1)
+      << csv;  // the paper's is always there
 }
 
 TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {

@@ -168,6 +168,22 @@ TEST(Located, PutsAStartBehindTheWallOntoIt) {
   EXPECT_EQ(std::tuple(end.vx[lowest], end.vy[lowest]), std::tuple(0.0, 0.0));
 }
 
+// One that is behind it and comes out, as a flight that was too long may leave it, keeps its speed.
+TEST(Located, LetsOutWhatIsBehindTheWall) {
+  Problem problem = make_problem(impact_scene(0.0, 0.0, "leapfrog", 1e-6));
+  const auto lowest = static_cast<std::size_t>(
+      std::min_element(problem.initial.y.begin(), problem.initial.y.end()) -
+      problem.initial.y.begin());
+  problem.initial.y[lowest] = -1e-3;
+  problem.initial.vy[lowest] = 2.0;
+  const auto stepper = stepper_of(problem, {"ring"});
+  stepper->advance(1);
+  const State end = stepper->state();
+  // Its bonds push it down by some 2000 cm/s^2 for 1e-6 s.
+  EXPECT_NEAR(end.y[lowest], 2.0 * 1e-6, 1e-8);
+  EXPECT_NEAR(end.vy[lowest], 2.0, 0.05);
+}
+
 // Five times the stable step, particles flung at the floor; and a place that is no number, which is
 // handed out as such.
 TEST(Located, AWildRunEnds) {
