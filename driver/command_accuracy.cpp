@@ -57,7 +57,7 @@ struct Reference {
 };
 
 CourseRecord seen(const Problem& problem, int rings, const std::vector<double>& times,
-                  const std::vector<State>& states, std::optional<std::size_t> free_samples = {}) {
+                  const std::vector<State>& states, std::size_t free_samples) {
   CourseGauge gauge(problem, rings, free_samples);
   for (std::size_t i = 0; i < times.size() && gauge.add(times[i], states[i]); ++i) {
   }
@@ -75,8 +75,10 @@ Reference make_reference(const Study& study) {
     if (interrupted()) throw Stopped();
   });
   const int rings = rings_of(study.scene);
+  // By the contacts themselves: samples would miss the first bounces off an elastic wall.
+  const std::size_t last = pair.last_before_contact();
   Reference reference;
-  reference.record = seen(problem, rings, times, pair.fixed.states);
+  reference.record = seen(problem, rings, times, pair.fixed.states, last > 0 ? last + 1 : 0);
   reference.bar =
       errors_of(seen(problem, rings, times, pair.adaptive.states, reference.record.free_samples),
                 reference.record);

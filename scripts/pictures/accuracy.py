@@ -86,6 +86,11 @@ def draw_panel(axes, study, cost, name, colours):
             label += " (not finished)"
         axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0, label=label,
                   **style_of(contact, precision))
+    if not any(0 < r[key] < math.inf for r in study.rows):
+        axes.text(0.5, 0.5, f"{PANELS[name]}:\nnothing to show, it starts at a wall", transform=axes.transAxes,
+                  ha="center", va="center", color="#5a6068", fontsize=8)
+        axes.set_axis_off()
+        return
     papers = study.papers()
     if papers:
         oracle = study.origin.get("oracle_seconds") or papers["seconds"]
@@ -102,8 +107,8 @@ def draw_panel(axes, study, cost, name, colours):
         axes.spines[side].set_visible(False)
 
 
-def draw_guides(axes, rows, key):
-    """Slopes of the orders, below the points, over evaluations."""
+def draw_guides(axes):
+    """Slopes of the orders, over evaluations."""
     low, high = axes.get_ylim()
     left, right = axes.get_xlim()
     for order, label in ((1, "1"), (2, "2"), (4, "4"), (6, "6")):
@@ -128,7 +133,8 @@ def figure_of(study, title):
     for row, (name, label) in zip(panels, PANELS.items()):
         for axes, cost in zip(row, ("seconds", "evaluations")):
             draw_panel(axes, study, cost, name, colours)
-        draw_guides(row[1], study.rows, name)
+        if row[1].axison:
+            draw_guides(row[1])
         row[0].set_ylabel(label)
     panels[-1][0].set_xlabel("run time on one thread, s")
     panels[-1][1].set_xlabel("force evaluations (short lines: orders 1, 2, 4, 6)")

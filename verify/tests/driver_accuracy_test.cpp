@@ -112,6 +112,22 @@ TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
   EXPECT_EQ(count(csv, "\nyoshida-4,located,double,"), 3) << csv;
 }
 
+// Between two looks a particle may come to an elastic floor and leave it. Before that the method
+// has its own error, roundings at the smallest step; after it that of the contact, 1e-10 cm at
+// least.
+TEST_F(DriverAccuracyTest, ComparesPlacesBeforeTheFirstBounce) {
+  ASSERT_EQ(run(impact + "--set wall.alpha=1 --set wall.beta=-1 --methods blanes-moan-6 --contacts "
+                         "resolved --precisions double --quick --every 0.002"),
+            0)
+      << err();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  std::istringstream row(csv.substr(csv.rfind("\nblanes-moan-6,") + 1));
+  std::string field;
+  for (int k = 0; k < 10; ++k) std::getline(row, field, ',');  // to error_position
+  EXPECT_GT(std::stod(field), 0.0) << csv;
+  EXPECT_LT(std::stod(field), 1e-12) << csv;
+}
+
 TEST_F(DriverAccuracyTest, HasTheContactsAskedFor) {
   ASSERT_EQ(run(impact + "--methods leapfrog --precisions double --contacts located --quick"), 0)
       << err();
