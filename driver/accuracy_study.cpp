@@ -75,8 +75,10 @@ std::vector<Contact> contacts_of(const Scene& scene, const Method& method, Preci
   if (scene.walls.empty()) return {Contact::resolved};
   if (precision == Precision::single_precision) return {Contact::listing};
   if (precision == Precision::compensated) return {Contact::resolved};
-  if (method.evaluations > 1) return {Contact::resolved, Contact::located};
-  return {Contact::listing, Contact::resolved, Contact::located};
+  std::vector<Contact> contacts{Contact::resolved};
+  if (method.evaluations == 1) contacts.insert(contacts.begin(), Contact::listing);
+  if (worth_locating(scene)) contacts.push_back(Contact::located);
+  return contacts;
 }
 
 std::vector<Precision> precisions_of(const StudyRequest& request, const std::string& method) {
@@ -154,11 +156,15 @@ Study make_study(const StudyRequest& request) {
   for (const Method& method : methods()) {
     if (!request.wants(method.name)) continue;
     const std::string name(method.name);
+    const std::size_t before = study.settings.size() + study.left_out.size();
     for (const Precision precision : precisions_of(request, name)) {
       for (const Contact contact : contacts_of(study.scene, method, precision)) {
         if (!request.wants(contact)) continue;
         add_line({name, contact, 1, precision}, request, study);
       }
+    }
+    if (study.settings.size() + study.left_out.size() == before) {
+      study.left_out.push_back(fmt::format("{}: it has none of the contacts asked for", name));
     }
   }
   study.papers = {"listing", Contact::listing, std::llround(study.sampling.every / papers_step)};

@@ -69,7 +69,8 @@ std::string unit_of(const std::string& observable) {
 std::vector<Contact> contacts_of(const AdviceRequest& request, const Sampling& sampling) {
   if (request.scene.walls.empty()) return {Contact::listing};
   const Setting located{"leapfrog", Contact::located, 1};
-  if (!plan_refusal(request.scene, request.initial, located, sampling).empty()) {
+  if (request.books || !worth_locating(request.scene) ||
+      !plan_refusal(request.scene, request.initial, located, sampling).empty()) {
     return {Contact::resolved};
   }
   return {Contact::resolved, Contact::located};
@@ -171,9 +172,12 @@ class Pilot {
   [[nodiscard]] Setting fine(std::size_t which, double smaller) const {
     const bool located = contacts_.back() == Contact::located;
     const double larger = located && which == 1 ? 1.5 : 1.0;
-    return settings({finest_methods()[located ? 0 : which], contacts_.back(), 1},
-                    {larger * pilot_part / smaller, 0.0, per_decade})
-        .front();
+    Setting found = settings({finest_methods()[located ? 0 : which], contacts_.back(), 1},
+                             {larger * pilot_part / smaller, 0.0, per_decade})
+                        .front();
+    // Where a step is as long as the time between two looks, both would have the same.
+    if (which == 0) found.steps_a_sample += found.steps_a_sample / 8 + 1;
+    return found;
   }
   // Every method with every contact and precision that is worth trying.
   [[nodiscard]] std::vector<Setting> kinds() const {

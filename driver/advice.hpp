@@ -29,6 +29,7 @@ struct AdviceRequest {
   double error = 0.0;                 ///< asked, in the unit of the observable
   std::string observable = "height";  ///< of observable_names, or "position"
   int threads = 0;                    ///< for the pilot; 0: one a core
+  bool books = false;                 ///< the run will book every reflection: no located contact
 };
 
 struct Advice {

@@ -211,8 +211,10 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
                    "These time steps, too, s; whole parts of --every [none]")
       ->delimiter(',');
   command->add_option("--every", options->study.every, "Time between two looks, s [0.01]");
-  command->add_option("--decades", options->study.sweep.decades,
-                      "Time steps from the stable one down so many decades [3]");
+  command->add_option(
+      "--decades", options->study.sweep.decades,
+      "Time steps from the stable one down so many decades, one less for methods above order 2 "
+      "with located contact [3]");
   command->add_option("--per-decade", options->study.sweep.per_decade, "Time steps a decade [3]");
   command->add_flag("--quick", options->study.quick, "1.5 decades, 2 a decade");
   command->add_option("--threads", options->threads,

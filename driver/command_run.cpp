@@ -70,6 +70,7 @@ std::optional<std::string> take_advice(const Options& options, SceneFile& file) 
   if (!options.initial.empty()) request.initial = read_state(options.initial);
   request.error = *options.error;
   request.observable = options.observable;
+  request.books = options.ledger;
   load_problem(file, options.initial);  // throws what is wrong with it
   catch_interrupts();
   const auto advice = advise(request);

@@ -82,37 +82,62 @@ class Kinds {
   std::vector<std::unique_ptr<Stepper>> steppers_;
 };
 
-// Located contact takes longer wherever a wall is near, which no observable tells: of each such
-// method the course with the fewest steps is run whole.
+// Located contact takes longer wherever a wall is near, which no observable tells, and a contact
+// takes its time whatever the step: of each such method two courses are run whole, those with the
+// fewest steps and with four times as many, and the rest lies on the line through them.
 class WholeCourses {
  public:
   WholeCourses(const Scene& scene, const std::optional<State>& initial, const Sampling& sampling,
                std::span<const AccuracyRow> rows) {
-    std::map<std::string, const AccuracyRow*> fewest;
+    std::map<std::string, std::vector<const AccuracyRow*>> methods;
     for (const AccuracyRow& row : rows) {
       if (row.setting.contact != Contact::located || !row.record.finite) continue;
-      const AccuracyRow*& kept = fewest.emplace(row.setting.method, &row).first->second;
-      if (row.steps < kept->steps) kept = &row;
+      methods[row.setting.method].push_back(&row);
     }
-    for (const auto& [method, row] : fewest) {
-      const Problem problem = problem_of(scene, initial, row->setting, sampling);
-      const auto stepper = make_stepper(problem, make_plan(problem, {"auto", "auto", 1}));
-      const Snapshot start = stepper->save();
-      std::vector<double> times(turns);
-      for (double& time : times) time = seconds_of(*stepper, start, row->steps);
-      std::sort(times.begin(), times.end());
-      a_step_[method] = times[turns / 2] / static_cast<double>(row->steps);
+    for (auto& [method, found] : methods) {
+      std::sort(found.begin(), found.end(),
+                [](const AccuracyRow* x, const AccuracyRow* y) { return x->steps < y->steps; });
+      const auto apart = std::find_if(found.begin(), found.end(), [&](const AccuracyRow* row) {
+        return row->steps >= 4 * found.front()->steps;
+      });
+      const AccuracyRow& few = *found.front();
+      const AccuracyRow& many = apart == found.end() ? *found.back() : **apart;
+      const double seconds = time_of(scene, initial, sampling, few);
+      const auto steps = static_cast<double>(few.steps);
+      Line line{0.0, seconds / steps};
+      if (many.steps > few.steps) {
+        const double more = time_of(scene, initial, sampling, many) - seconds;
+        const double a_step = more / static_cast<double>(many.steps - few.steps);
+        // A negative part would be noise.
+        if (a_step > 0.0 && seconds > a_step * steps) line = {seconds - a_step * steps, a_step};
+      }
+      lines_[method] = line;
     }
   }
   [[nodiscard]] double seconds(const AccuracyRow& row) const {
-    const auto found = a_step_.find(row.setting.method);
-    return found == a_step_.end() ? std::numeric_limits<double>::quiet_NaN()
-                                  : found->second * static_cast<double>(row.steps);
+    const auto found = lines_.find(row.setting.method);
+    if (found == lines_.end()) return std::numeric_limits<double>::quiet_NaN();
+    return found->second.once + found->second.a_step * static_cast<double>(row.steps);
   }
 
  private:
-  static constexpr std::size_t turns = 3;
-  std::map<std::string, double> a_step_;  // s, by method
+  struct Line {
+    double once = 0.0, a_step = 0.0;  // s
+  };
+
+  static double time_of(const Scene& scene, const std::optional<State>& initial,
+                        const Sampling& sampling, const AccuracyRow& row) {
+    constexpr std::size_t turns = 3;
+    const Problem problem = problem_of(scene, initial, row.setting, sampling);
+    const auto stepper = make_stepper(problem, make_plan(problem, {"auto", "auto", 1}));
+    const Snapshot start = stepper->save();
+    std::vector<double> times(turns);
+    for (double& time : times) time = seconds_of(*stepper, start, row.steps);
+    std::sort(times.begin(), times.end());
+    return times[turns / 2];
+  }
+
+  std::map<std::string, Line> lines_;  // by method
 };
 
 }  // namespace

@@ -24,8 +24,8 @@ struct CourseTimes {
 };
 
 /// Times a step of each method, contact and precision of the rows, in flight and where the ball is
-/// lowest, and takes them by the share of the course that is contact. With located contact a whole
-/// course of each method is timed.
+/// lowest, and takes them by the share of the course that is contact. With located contact whole
+/// courses of each method are timed.
 CourseTimes time_courses(const Scene& scene, const std::optional<State>& initial,
                          const Sampling& sampling, std::span<const AccuracyRow> rows,
                          bool with_oracle, int turns = 15);

@@ -149,7 +149,7 @@ def markdown(rows, some, growths):
             "times nearer they are to the reference, which is the limit Δt → 0. At 1e-4 s, a quarter of the stable step "
             "at E = 16000, leapfrog's own error counts as well as the contact's, that of blanes-moan-6 does not; last "
             "the same with both at 1e-6 s, and the step from which on all that were run are nearer by a factor 10. For "
-            "alpha = 1, beta = -1 (example-6) the resolved rule is the paper's, and what is compared are the methods.\n",
+            "alpha = 1, beta = -1 (example-6) the resolved rule is the paper's, and what differs is the method.\n",
             claim_of(rows), growth_text(growths, rows),
             "In full: the paper's rule extrapolated from its smallest steps, ± what leaving out the smallest changes; the "
             "errors. Known to: what the two references differ by; nothing below counts.\n",

@@ -8,6 +8,7 @@
 #include <exception>
 #include <numeric>
 
+#include "kernels/model/ball.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/spectrum.hpp"
 #include "verify/stability_limit.hpp"
@@ -46,6 +47,11 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
 Sampling sampling_of(const Scene& scene, double every) {
   const double samples = std::max(1.0, std::round(scene.time.end / every));
   return {scene.time.end / samples, static_cast<std::int64_t>(samples)};
+}
+
+bool worth_locating(const Scene& scene) {
+  constexpr std::int64_t most_particles = 5000;
+  return ball_size(scene.ball).particles <= most_particles;
 }
 
 int rings_of(const Scene& scene) {

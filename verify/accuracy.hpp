@@ -67,6 +67,10 @@ struct AccuracyRow {
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                    const Sampling& sampling);
 
+/// Whether located contact is worth a try: near a wall it runs in plain code on one thread, which a
+/// ball of many particles turns into minutes.
+bool worth_locating(const Scene& scene);
+
 /// Number of rings as measure_shape wants it: 0 for a ball without.
 int rings_of(const Scene& scene);
 

@@ -62,14 +62,14 @@ std::vector<bool> run_trials(std::span<const Problem> problems, std::span<const 
   const IsGood is_good = [&](std::size_t i, const State& state) {
     return !(options.stop && options.stop()) && look(i, state);
   };
-  if (!find_ring_form(problems.front()).refusal.empty()) {
-    return run_each_alone(problems, steps, look_every, is_good, options);
-  }
-  // Of the walls' limit for small steps the ensemble has one rule.
   std::vector<Problem> resolved;
-  if (is_located(problems.front().walls)) {
+  if (std::any_of(problems.begin(), problems.end(),
+                  [](const Problem& problem) { return is_located(problem.walls); })) {
     std::transform(problems.begin(), problems.end(), std::back_inserter(resolved), as_resolved);
     problems = resolved;
+  }
+  if (!find_ring_form(problems.front()).refusal.empty()) {
+    return run_each_alone(problems, steps, look_every, is_good, options);
   }
   const PlanRequest request{"auto", options.vector, options.threads};
   Ensemble ensemble(problems, request, is_good, look_every);

@@ -118,10 +118,12 @@ class ContactCourse {
   }
 
   /// `length` (s) from `state` on. What rests on a wall is what stands on it, does not move and is
-  /// pressed to it. A particle behind a wall is put onto it (beta = -1: mirrored). Where the motion
-  /// is too wild to follow, the rest of the step knows no walls.
+  /// pressed to it. A particle behind a wall is put onto it (beta = -1: mirrored); one that slides
+  /// into another wall goes on along that. Where more happens than can be followed, the rest of the
+  /// step knows no walls.
   void step(Real length, State& state) {
     constexpr std::size_t most_events = 20'000;
+    if (!is_finite(state)) return;
     time_ = 0;
     result_.events.clear();
     std::fill(armed_.begin(), armed_.end(), false);
@@ -142,8 +144,6 @@ class ContactCourse {
       state = rounded(end());
     }
   }
-  /// Of the last step: what happened in it, after what stood on walls at its start.
-  [[nodiscard]] const ContactRun& result() const { return result_; }
 
  private:
   struct Gauge {
@@ -194,6 +194,7 @@ class ContactCourse {
     Real h = flow_.attempt(left);
     ++result_.steps;
     const bool to_the_end = h == left;
+    check_finite();
     arm();
     std::optional<Candidate> event;
     // What roundings may make of events that are nearly together is no reason to go on for ever:
@@ -213,7 +214,6 @@ class ContactCourse {
       }
       cut = true;
     }
-    check_finite();
     time_ = to_the_end && !cut ? until : time_ + h;
     flow_.accept();
     if (event) act(*event);
@@ -337,7 +337,9 @@ class ContactCourse {
 
   void meet(std::size_t i, std::size_t w) {
     const Wall& wall = problem_.walls[w];
-    if (resting_.wall_of(i) >= 0) {
+    if (resting_.wall_of(i) >= 0 && !behind_is_refused_) {  // slid into another
+      resting_.release(i);
+    } else if (resting_.wall_of(i) >= 0) {
       throw ContactError("particle " + std::to_string(i + 1) + " slides along wall[" +
                          std::to_string(resting_.wall_of(i)) + "] into wall[" + std::to_string(w) +
                          "] at t = " + text(time_) +

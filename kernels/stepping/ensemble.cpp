@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernels/stepping/ensemble_batch.hpp"
+#include "kernels/stepping/located.hpp"
 #include "kernels/stepping/ring_forms.hpp"
 #include "kernels/stepping/scene_forms.hpp"
 
@@ -170,6 +171,7 @@ BatchForm form_of(std::span<const Problem> problems, VectorTarget vector) {
   const RingForm ring = find_ring_form(problems.front());
   if (!ring.refusal.empty()) throw PlanError("no ensemble of this scene: " + ring.refusal);
   for (const Problem& problem : problems) {
+    if (is_located(problem.walls)) throw PlanError("an ensemble has no located contact");
     if (problem.precision == Precision::double_precision) continue;
     throw PlanError("an ensemble computes in double precision only (time.precision)");
   }

@@ -25,7 +25,7 @@ Problem open_problem(Problem problem) {
 
 class LocatedStepper final : public Stepper {
  public:
-  LocatedStepper(const Problem& problem,
+  LocatedStepper(const Problem& problem, bool halves,
                  const std::function<std::unique_ptr<Stepper>(const Problem&)>& make)
       : problem_(problem),
         open_(open_problem(problem)),
@@ -34,7 +34,7 @@ class LocatedStepper final : public Stepper {
         flight_(make(open_problem(problem))),
         flow_(problem_),
         course_(problem_, flow_),
-        images_(mirror_images(problem)),
+        images_(halves ? mirror_images(problem) : std::vector<std::size_t>()),
         state_(problem.initial) {}
 
   void advance(std::int64_t steps) override {
@@ -60,8 +60,7 @@ class LocatedStepper final : public Stepper {
       return;
     }
     state_ = snapshot.state;
-    if (!snapshot.stage_held) return;
-    finish_step(open_, state_);  // another kernel's
+    if (snapshot.stage_held) finish_step(open_, state_);  // another kernel's
     make_symmetric(images_, state_);
   }
   [[nodiscard]] std::int64_t step() const override { return step_; }
@@ -92,18 +91,24 @@ class LocatedStepper final : public Stepper {
     ++step_;
   }
 
-  // How many steps nobody takes to reach a wall (reason 5). The state may lack its last stage.
-  [[nodiscard]] std::int64_t clear_steps(const State& state) const {
-    double gap = std::numeric_limits<double>::infinity(), fastest = 0.0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
+  // How many steps nobody takes to reach a wall (reason 5); 0 for a state that is not finite. The
+  // state may lack its last stage.
+  [[nodiscard]] std::int64_t clear_steps(const State& state) {
+    if (!is_finite(state)) return 0;
+    const std::size_t n = state.size();
+    pull_.resize(2 * n);
+    flow_.forces()(state.x.data(), state.y.data(), pull_.data(), pull_.data() + n);
+    double gap = std::numeric_limits<double>::infinity(), fastest = 0.0, strongest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
       for (const Wall& wall : problem_.walls) {
         gap = std::min(gap, wall_distance(wall, state.x[i], state.y[i]));
       }
       fastest = std::max(fastest, state.vx[i] * state.vx[i] + state.vy[i] * state.vy[i]);
+      strongest = std::max(strongest, pull_[i] * pull_[i] + pull_[n + i] * pull_[n + i]);
     }
     if (!(gap > 0.0)) return 0;
-    const double gravity = std::hypot(problem_.gravity.x, problem_.gravity.y);
-    const double time = std::min(gap / (4.0 * std::sqrt(fastest)), std::sqrt(gap / gravity));
+    const double time =
+        std::min(gap / (4.0 * std::sqrt(fastest)), std::sqrt(gap / std::sqrt(strongest)));
     const double steps = time / problem_.step;
     return steps < static_cast<double>(most_steps) ? static_cast<std::int64_t>(steps) : most_steps;
   }
@@ -116,6 +121,7 @@ class LocatedStepper final : public Stepper {
   ContactCourse<MethodFlow> course_;
   std::vector<std::size_t> images_;
   State state_;                    // unless it flies
+  std::vector<double> pull_;       // accelerations at the last look
   bool flies_ = false;             // the state is flight_'s
   std::int64_t flies_until_ = -1;  // step up to which nobody can reach a wall
   std::int64_t step_ = 0;
@@ -133,12 +139,13 @@ std::string located_refusal(const Problem& problem) {
   if (problem.precision != Precision::double_precision) {
     return "contact \"located\" is computed in double precision only (time.precision)";
   }
+  // Whatever comes to rest on a wall with alpha = 1 slides.
   const bool slides = std::any_of(problem.walls.begin(), problem.walls.end(), [](const Wall& wall) {
-    return wall.alpha == 1.0 && wall.beta == 0.0;
+    return wall.alpha == 1.0 && wall.beta != -1.0;
   });
   if (slides && problem.walls.size() > 1) {
     return "contact \"located\" does not follow a particle that slides along one wall (alpha = 1, "
-           "beta = 0) into another";
+           "beta above -1) into another";
   }
   return {};
 }
@@ -149,8 +156,9 @@ Problem as_resolved(Problem problem) {
 }
 
 std::unique_ptr<Stepper> make_located(
-    const Problem& problem, const std::function<std::unique_ptr<Stepper>(const Problem&)>& make) {
-  return std::make_unique<LocatedStepper>(problem, make);
+    const Problem& problem, bool halves,
+    const std::function<std::unique_ptr<Stepper>(const Problem&)>& make) {
+  return std::make_unique<LocatedStepper>(problem, halves, make);
 }
 
 }  // namespace bounce

@@ -17,12 +17,10 @@
 //  3. Which of the two follows from the state alone: for how many steps it is far enough away is
 //     decided when the last decision has run out, and a snapshot carries what is left of it. So a
 //     run has the same bits for any threads, vectors and restarts.
-//  4. What is symmetric stays so: near a wall one half of such a ball decides, so that the kernel
-//     of half balls can take over.
-//  5. How far a particle gets is estimated: four times the ball's greatest speed and twice the
-//     fall by gravity. free_flight.hpp proves a bound, for windows ten times shorter; it must, as
-//     what it overlooks is missed. Here that is found behind the wall by the next look, and put
-//     onto it: a contact late by a window, in a ball whose speeds grow fourfold within one.
+//  4. For the kernel of half balls one half decides near a wall, too.
+//  5. How far a particle gets is estimated: four times the ball's greatest speed, and twice the way
+//     of its greatest acceleration, whatever their directions. A vibration has one or the other.
+//     free_flight.hpp proves a bound, for windows ten times shorter.
 //
 // Cost: near a wall a step takes some 2 us an evaluation for the paper's ball, five to fifteen
 // times the kernels'. The ball is near for 5 to 30 % of the examples.
@@ -52,8 +50,10 @@ std::string located_refusal(const Problem& problem);
 /// do, and of that the resolved rule does the same.
 Problem as_resolved(Problem problem);
 
-/// Calls `make` for the problem without walls.
+/// Calls `make` for the problem without walls. `halves`: what it makes knows half of a symmetric
+/// ball.
 std::unique_ptr<Stepper> make_located(
-    const Problem& problem, const std::function<std::unique_ptr<Stepper>(const Problem&)>& make);
+    const Problem& problem, bool halves,
+    const std::function<std::unique_ptr<Stepper>(const Problem&)>& make);
 
 }  // namespace bounce

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/model/ball.hpp"
+#include "kernels/stepping/located.hpp"
 #include "kernels/stepping/plan.hpp"
 
 namespace bounce {
@@ -29,6 +30,9 @@ double solver_bytes(const Scene& scene, const std::string& kernel) {
       most = std::max(most, bytes);
     }
   }
+  // Of located contact, beside the kernel: bonds, some states, what is held of a step.
+  constexpr double located_bytes = 450.0;
+  if (is_located(scene.walls)) most += static_cast<double>(size.particles) * located_bytes;
   return static_cast<double>(size.particles) * state_bytes + static_cast<double>(size.list_bytes) +
          most;
 }

@@ -50,9 +50,12 @@ Plan make_located_plan(const Problem& problem, const PlanRequest& request,
                        std::span<const KernelEntry> entries) {
   const std::string refusal = located_refusal(problem);
   if (!refusal.empty()) throw PlanError("this scene cannot be run: " + refusal);
-  Plan plan = make_plan(as_resolved(problem), request, entries);
+  PlanRequest in_flight = request;
+  in_flight.free_flight = false;  // there is no wall test to be left out
+  Plan plan = make_plan(as_resolved(problem), in_flight, entries);
   plan.walls = describe(wall_form(problem)) + ", contact located";
   plan.left_out.emplace_back("wall test where no wall is near");
+  plan.reasons.emplace_back("contact located: near a wall, one thread in plain code");
   return plan;
 }
 
@@ -137,7 +140,7 @@ Plan make_plan(const Problem& problem, const PlanRequest& request,
 std::unique_ptr<Stepper> make_stepper(const Problem& problem, const Plan& plan,
                                       std::span<const KernelEntry> entries) {
   if (is_located(problem.walls)) {
-    return make_located(problem,
+    return make_located(problem, plan.kernel == "mirror",
                         [&](const Problem& open) { return make_stepper(open, plan, entries); });
   }
   auto stepper = find_entry(plan.kernel, entries).make(problem, plan);

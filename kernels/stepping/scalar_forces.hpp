@@ -13,6 +13,7 @@
 // some 12 us in x87's long double.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

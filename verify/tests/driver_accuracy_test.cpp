@@ -136,6 +136,9 @@ TEST_F(DriverAccuracyTest, HasTheContactsAskedFor) {
   EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
   EXPECT_EQ(count(csv, "\nlisting,listing,double,1e-06,"), 1)
       << csv;  // the paper's is always there
+  ASSERT_EQ(run(impact + "--methods leapfrog,pefrl --contacts listing --quick --force"), 0)
+      << err();
+  EXPECT_NE(out().find("left out: pefrl: it has none of the contacts"), std::string::npos) << out();
 }
 
 TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
@@ -193,7 +196,7 @@ TEST_F(DriverAccuracyTest, AdviceIsTakenAndTrue) {
   EXPECT_LE(forecast, 1e-6);
   ASSERT_EQ(run(impact + "--error 1e-6 --out there", "run"), 0) << err();
   const std::string scene = contents(folder_ / "there/scene.toml");
-  EXPECT_NE(scene.find("contact = \"resolved\""), std::string::npos) << scene;
+  EXPECT_EQ(scene.find("contact = \"listing\""), std::string::npos) << scene;
   const std::string monitor = contents(folder_ / "there/monitor.csv");
   const std::string last = monitor.substr(monitor.rfind('\n', monitor.size() - 2) + 1);
   // The column of the centre's height, by the head.
@@ -205,6 +208,13 @@ TEST_F(DriverAccuracyTest, AdviceIsTakenAndTrue) {
   }
   EXPECT_NEAR(reached, height, 3e-6);  // at most three times what was asked
   EXPECT_NE(contents(folder_ / "there/run.json").find("\"advice\""), std::string::npos);
+}
+
+// --ledger books every reflection, for which contacts must not be located.
+TEST_F(DriverAccuracyTest, AdviceLeavesRoomForBooks) {
+  ASSERT_EQ(run(impact + "--error 1e-3 --ledger --out there", "run"), 0) << err();
+  EXPECT_NE(contents(folder_ / "there/scene.toml").find("contact = \"resolved\""),
+            std::string::npos);
 }
 
 TEST_F(DriverAccuracyTest, AdviceRefusesWhatNothingReaches) {

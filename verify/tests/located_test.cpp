@@ -88,7 +88,7 @@ TEST_P(LocatedOrder, IsThatOfTheMethodThroughContacts) {
     }
     const double least = std::pow(4.0, order - 0.5);
     EXPECT_LE(errors[1], errors[0] / least + roundings) << errors[0] << " and " << errors[1];
-    EXPECT_GT(errors[1], 0.0);
+    EXPECT_GT(errors[0], 300.0 * roundings);  // else the roundings would decide
   }
 }
 
@@ -117,16 +117,22 @@ TEST(Located, IsNotWhatResolvedIs) {
 
 // ---- rules
 
-// All that alpha and beta may be: bounces that end in rest, sliding, half friction. The bound: what
-// the order test measures for this method and step, a hundredfold.
+// All that alpha and beta may be: bounces that end in rest, sliding, half friction. At this step
+// the method leaves 2e-13 cm (order test); bounces that end in rest do so some roundings earlier or
+// later, 2e-12 cm. Resolved contact is off by 2e-7 cm and more. (That the rules are the paper's is
+// for reference_test to say: a reference finds its contacts by the same code.)
 TEST(Located, FollowsTheRules) {
   for (const auto& [alpha, beta] :
        {std::pair{0.5, -0.5}, std::pair{1.0, 0.0}, std::pair{0.0, -1.0}, std::pair{0.3, 0.0}}) {
     SCOPED_TRACE(testing::Message() << alpha << ", " << beta);
     const Scene scene = impact_scene(alpha, beta, "blanes-moan-6", coarse / 4.0);
     const Truth truth = truth_of(scene, watched);
-    const State end = after(scene, std::llround(watched / scene.time.step));
-    EXPECT_LE(largest_distance(end, truth.end), 1e-6);
+    EXPECT_GE(truth.run.events.size(), 4U);
+    Scene resolved = scene;
+    resolved.walls.front().contact = Contact::resolved;
+    const std::int64_t steps = std::llround(watched / scene.time.step);
+    EXPECT_LE(largest_distance(after(scene, steps), truth.end), 1e-11);
+    EXPECT_GT(largest_distance(after(resolved, steps), truth.end), 1e-7);
   }
 }
 
@@ -144,15 +150,42 @@ TEST(Located, ElasticWallsTakeNothing) {
   EXPECT_GT(std::abs(now.momentum.y - start.momentum.y), 1.0);  // it did meet the floor
 }
 
-// Two walls at once: the third image of example 7, on its way down the incline.
+// A ball that comes down into a wedge.
 TEST(Located, TakesSeveralWalls) {
-  Scene scene = paper_scene(7);
-  for (Wall& wall : scene.walls) wall.contact = Contact::located;
-  scene.time.method = "blanes-moan-6";
-  scene.time.step = 1e-4;
-  const Truth truth = truth_of(scene, 0.3);
-  EXPECT_GT(truth.run.events.size(), 0U);
-  EXPECT_LE(largest_distance(after(scene, 3000), truth.end), 1e-6);
+  Scene scene = impact_scene(1.0, -1.0, "blanes-moan-6", 1e-4, 0.0);
+  scene.walls.push_back(scene.walls.front());
+  scene.walls[0].normal = {0.6, 0.8};
+  scene.walls[1].normal = {-0.6, 0.8};
+  for (Wall& wall : scene.walls) wall.offset = 0.8 * scene.ball.centre.y - 7.02;
+  const Truth truth = truth_of(scene, watched);
+  for (const std::size_t wall : {0U, 1U}) {
+    EXPECT_TRUE(std::any_of(truth.run.events.begin(), truth.run.events.end(),
+                            [&](const ContactEvent& event) { return event.wall == wall; }));
+  }
+  // As above.
+  EXPECT_LE(largest_distance(after(scene, 600), truth.end), 1e-11);
+}
+
+// A ball squeezed, at rest: no speed tells that it will reach the floor, and without gravity
+// nothing but its bonds.
+TEST(Located, SeesASqueezedBallComing) {
+  for (const double gravity : {-0.098, 0.0}) {
+    Scene scene = impact_scene(0.0, 0.0, "blanes-moan-6", 1e-4);
+    scene.gravity.y = gravity;
+    scene.ball.centre.y = 7.0;
+    Problem problem = make_problem(scene);
+    for (std::size_t i = 0; i < problem.initial.size(); ++i) {
+      problem.initial.y[i] = 7.0 + 0.998 * (problem.initial.y[i] - 7.0);  // 0.014 cm above
+      problem.initial.vx[i] = problem.initial.vy[i] = 0.0;
+    }
+    Truth truth;
+    truth.run = solve_fixed(problem, std::vector{0.3}, {2e-5},
+                            [&](double, const State& state) { truth.end = state; });
+    ASSERT_GT(truth.run.events.size(), 0U);
+    const auto stepper = stepper_of(problem, {"ring"});
+    stepper->advance(3000);
+    EXPECT_LE(largest_distance(stepper->state(), truth.end), 1e-10);  // roundings make 1e-12
+  }
 }
 
 // Four decimals can put a start behind a wall.
@@ -192,7 +225,19 @@ TEST(Located, AWildRunEnds) {
   EXPECT_GT(*std::max_element(wild.y.begin(), wild.y.end()), 100.0);
   Problem problem = make_problem(impact_scene(0.0, 0.0, "leapfrog", coarse));
   problem.initial.x[5] = std::nan("");
-  const auto stepper = stepper_of(problem, {"ring"});
+  for (const char* const kernel : {"ring", "csr"}) {
+    const auto stepper = stepper_of(problem, {kernel});
+    stepper->advance(300);
+    EXPECT_FALSE(is_finite(stepper->state())) << kernel;
+  }
+  // It becomes one in flight, on the kernel of half balls, which takes nothing that is not
+  // symmetric.
+  Scene falls = impact_scene(0.0, 0.0, "leapfrog", coarse, 0.0);
+  falls.ball.rounding = Rounding::listing;
+  Problem half = make_problem(falls);
+  ASSERT_EQ(make_plan(half).kernel, "mirror");
+  half.gravity.y = std::nan("");
+  const auto stepper = stepper_of(half, {"mirror"});
   stepper->advance(300);
   EXPECT_FALSE(is_finite(stepper->state()));
 }
@@ -231,7 +276,6 @@ TEST_F(OneAnswer, SameBitsHoweverItIsDealtOut) {
     const Problem problem = make_problem(scene);
     const std::uint64_t expected = state_hash(after(scene, steps));
     auto stepper = stepper_of(problem);
-    const PlanRequest request;
     for (std::int64_t done = 0, part = 1; done < steps; part = part * 3 % 101 + 1) {
       const std::int64_t now = std::min(part, steps - done);
       stepper->advance(now);
@@ -253,13 +297,10 @@ TEST_F(OneAnswer, ASymmetricBallStaysSo) {
   ASSERT_EQ(make_plan(problem).kernel, "mirror");
   const State end = after(scene, steps);
   const State whole = after(scene, steps, {"ring"});
-  // The kernels differ by roundings, which a bounce makes larger.
+  // The kernels differ by roundings, some 1e-13 cm by then, which the bounce may make 50 000 times
+  // larger.
   EXPECT_LE(largest_distance(end, whole), 1e-8);
-  for (std::size_t i = 0; i < 60; ++i) {
-    const std::size_t image = (60 - i + 120) % 120;
-    EXPECT_EQ(end.x[i], -end.x[image]) << i;
-    EXPECT_EQ(end.y[i], end.y[image]) << i;
-  }
+  EXPECT_GT(largest_distance(end, problem.initial), 0.1);
 }
 
 // ---- refusals
