@@ -168,18 +168,23 @@ def markdown(rows, some, growths):
 
 
 def draw(found, path):
-    figure, panels = plt.subplots(1, len(found), figsize=(3.2 * len(found), 3.2), squeeze=False,
-                                  layout="constrained")
+    # The last row is the legend's.
+    figure, panels = plt.subplots(2, len(found), figsize=(3.2 * len(found), 3.8), squeeze=False, layout="constrained",
+                                  gridspec_kw={"height_ratios": [3.2, 0.6]})
     for axes, (scene, study) in zip(panels[0], found.items()):
         for (method, contact, precision), rows in study.lines().items():
-            rows = sorted((r for r in rows if math.isfinite(r["error_height"]) and r["error_height"] > 0),
-                          key=lambda r: r["dt"])
+            # What is off by more than the ball's size was unstable.
+            rows = sorted((r for r in rows if 0 < r["error_height"] < 10.0), key=lambda r: r["dt"])
             axes.loglog([r["dt"] for r in rows], [r["error_height"] for r in rows], linewidth=1.0,
                         label=accuracy.label_of(method, contact, precision), **accuracy.style_of(contact, precision))
         axes.set_title(scene, fontsize=9)
         axes.set_xlabel("time step, s")
     panels[0][0].set_ylabel("error of the centre's height, cm")
-    panels[0][0].legend(frameon=False, fontsize=7)
+    for axes in panels[1]:
+        axes.axis("off")
+    legend = panels[1][0].legend(*panels[0][0].get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
+                                 fontsize=8)
+    legend.set_in_layout(False)  # it is wider than its panel
     figure.savefig(path, dpi=150)
     plt.close(figure)
 
