@@ -117,8 +117,36 @@ class Pilot {
     precisions_ = precisions_worth_trying(request, sampling_);
   }
 
-  // One round at steps this much smaller. False if interrupted.
-  bool round(double smaller) { return find_reference(smaller) && run_candidates(smaller); }
+  // The pilot's reference at steps this much smaller, and how well it is known. False if
+  // interrupted.
+  bool find_reference(double smaller) {
+    const auto row = run({fine(0, smaller)}, {});
+    if (!row) return false;
+    reference_ = row->front().record;
+    const auto other = run({fine(1, smaller)}, reference_);
+    if (!other) return false;
+    known_to_ = error_of(other->front().errors, request_.observable);
+    return true;
+  }
+  // All that may be advised, at the largest steps and, from the second call on, smaller ones; those
+  // of earlier calls once more, as the reference may be a better one. False if interrupted.
+  bool run_candidates() {
+    std::vector<Setting> all;
+    const double decades = smallest_ > 1.0 ? std::log10(finer) : first_decades;
+    for (const Setting& kind : kinds()) {
+      const int steps = kind.contact == Contact::located ? per_decade_located : per_decade;
+      const auto more = settings(kind, {largest_part / smallest_, decades, steps});
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    for (const AccuracyRow& row : rows_) {
+      if (std::find(all.begin(), all.end(), row.setting) == all.end()) all.push_back(row.setting);
+    }
+    auto rows = run(all, reference_);
+    if (!rows) return false;
+    rows_ = std::move(*rows);
+    smallest_ *= finer;
+    return true;
+  }
   [[nodiscard]] double known_to() const { return known_to_; }
   [[nodiscard]] std::size_t courses() const { return courses_; }
 
@@ -144,6 +172,7 @@ class Pilot {
     return best;
   }
   [[nodiscard]] double smallest_error() const {
+    if (rows_.empty()) return 0.0;  // none was run: it is known_to() that counts
     double smallest = std::numeric_limits<double>::infinity();
     for (const AccuracyRow& row : rows_) {
       smallest =
@@ -192,36 +221,13 @@ class Pilot {
     }
     return all;
   }
-  bool find_reference(double smaller) {
-    const auto row = run({fine(0, smaller)}, {});
-    if (row) reference_ = row->front().record;
-    return row.has_value();
-  }
-  bool run_candidates(double smaller) {
-    std::vector<Setting> all{fine(1, smaller)};  // the other course, to know the first one by
-    const double decades = smaller > 1.0 ? std::log10(finer) : first_decades;
-    for (const Setting& kind : kinds()) {
-      const int steps = kind.contact == Contact::located ? per_decade_located : per_decade;
-      const auto more = settings(kind, {largest_part / smaller, decades, steps});
-      all.insert(all.end(), more.begin(), more.end());
-    }
-    // Those of earlier rounds once more, against the better reference.
-    for (const AccuracyRow& row : rows_) {
-      if (std::find(all.begin(), all.end(), row.setting) == all.end()) all.push_back(row.setting);
-    }
-    auto rows = run(all, reference_);
-    if (!rows) return false;
-    rows_ = std::move(*rows);
-    known_to_ = error_of(rows_.front().errors, request_.observable);
-    return true;
-  }
-
   const AdviceRequest& request_;
   Sampling sampling_;
   std::vector<Contact> contacts_;
   std::vector<Precision> precisions_;
   CourseRecord reference_;
   double known_to_ = 0.0;
+  double smallest_ = 1.0;  // steps of the next candidates, times smaller than the largest
   std::vector<AccuracyRow> rows_;
   std::size_t courses_ = 0;
 };
@@ -232,11 +238,17 @@ std::optional<Advice> advise(const AdviceRequest& request) {
   check(request);
   const auto start = Clock::now();
   Pilot pilot(request);
-  double smaller = 1.0;
+  double smaller = 1.0, known_before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round, smaller *= finer) {
-    if (!pilot.round(smaller)) return std::nullopt;
-    // Not known well enough: a finer pilot may know more.
-    if (!(margin * pilot.known_to() <= request.error)) continue;
+    if (!pilot.find_reference(smaller)) return std::nullopt;
+    if (!(margin * pilot.known_to() <= request.error)) {
+      // Not known well enough. A finer pilot may know more, but not where this one knew no better
+      // than the one before.
+      if (!(finer * pilot.known_to() <= known_before)) break;
+      known_before = pilot.known_to();
+      continue;
+    }
+    if (!pilot.run_candidates()) return std::nullopt;
     if (auto best = pilot.best()) {
       best->pilot_seconds = std::chrono::duration<double>(Clock::now() - start).count();
       return best;

@@ -10,8 +10,8 @@
 //     setting is its measured distance from the pilot's reference.
 //  3. Run times are measured by turns on the kernel that will run it.
 //  4. Where no setting reaches the error, all steps and those of the pilot are made smaller by a
-//     factor 3. Where the pilot's reference itself is not known well enough, nothing would help:
-//     refused.
+//     factor 3; where the pilot's reference is not known well enough, its own first. If it then
+//     knows no better, nothing would help: refused.
 #pragma once
 
 #include <optional>

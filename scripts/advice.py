@@ -25,7 +25,7 @@ def read_arguments():
     add("--bounce", type=Path, default=root / "build/release/bounce", metavar="PROGRAM")
     add("--results", type=Path, default=root / "results", metavar="DIR", help="holds accuracy/SCENE [results]")
     add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
-    add("--errors", default="1e-2,1e-3,1e-4", help="asked, cm [1e-2,1e-3,1e-4]")
+    add("--errors", default="1e-2,1e-3,1e-4,1e-6", help="asked, cm [1e-2,1e-3,1e-4,1e-6]")
     add("scenes", nargs="*", metavar="SCENE", default=[f"example-{n}" for n in range(1, 8)])
     return parser.parse_args()
 
