@@ -120,10 +120,14 @@ class Pilot {
   // The pilot's reference at steps this much smaller, and how well it is known. False if
   // interrupted.
   bool find_reference(double smaller) {
-    const auto row = run({fine(0, smaller)}, {});
+    // With steps as they are: rounded to single precision, they end up to 1e-6 s before or after
+    // the course's end. That is an error of the run advised.
+    Sampling exact = sampling_;
+    exact.exact = true;
+    const auto row = run({fine(0, smaller)}, {}, exact);
     if (!row) return false;
     reference_ = row->front().record;
-    const auto other = run({fine(1, smaller)}, reference_);
+    const auto other = run({fine(1, smaller)}, reference_, exact);
     if (!other) return false;
     known_to_ = error_of(other->front().errors, request_.observable);
     return true;
@@ -141,7 +145,7 @@ class Pilot {
     for (const AccuracyRow& row : rows_) {
       if (std::find(all.begin(), all.end(), row.setting) == all.end()) all.push_back(row.setting);
     }
-    auto rows = run(all, reference_);
+    auto rows = run(all, reference_, sampling_);
     if (!rows) return false;
     rows_ = std::move(*rows);
     smallest_ *= finer;
@@ -190,9 +194,10 @@ class Pilot {
     return found;
   }
   [[nodiscard]] std::optional<std::vector<AccuracyRow>> run(const std::vector<Setting>& all,
-                                                            const CourseRecord& reference) {
+                                                            const CourseRecord& reference,
+                                                            const Sampling& sampling) {
     courses_ += all.size();
-    return measure_accuracy(request_.scene, request_.initial, all, sampling_, reference,
+    return measure_accuracy(request_.scene, request_.initial, all, sampling, reference,
                             request_.threads, [](std::size_t) { return !interrupted(); });
   }
   // The pilot's reference (0), and the course that says how well it is known (1): by the next best
