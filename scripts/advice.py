@@ -36,12 +36,21 @@ def reference_height(folder):
     return float(row["height"]), float(row["error_height"])
 
 
+def without_output(folder):
+    """Options: looks and frames at the start and the end alone, as the forecast is of a run without output."""
+    text = (folder / "scene.toml").read_text()
+    end = re.search(r"^end = (\S+)", text, re.MULTILINE)[1]
+    frames = "frames_every" if re.search(r"^frames_every", text, re.MULTILINE) else "frames_at"
+    frames += f"={end}" if frames == "frames_every" else f"=[0.0, {end}]"
+    return ["--set", f"output.monitor_every={end}", "--set", f"output.{frames}"]
+
+
 def row_of(arguments, scene, asked, folder):
     height, bar = reference_height(arguments.results / "accuracy" / scene)
     run = folder / f"{scene}-{asked}"
-    # So few looks that they take no time worth speaking of.
     done = subprocess.run([arguments.bounce, "run", scene, "--error", asked, "--out", run, "--threads", "1",
-                           "--set", "output.monitor_every=1"], capture_output=True, text=True, check=False)
+                           *without_output(arguments.results / "accuracy" / scene)],
+                          capture_output=True, text=True, check=False)
     if done.returncode == 2 and "nothing reaches it" in done.stderr:
         floor = re.search(r"reach is (\S+) cm", done.stderr)
         return [scene, asked, "refused", "-", "-", f"{bar:.1e}", "-", "-", f"nothing known to reach below {floor[1]} cm"]
