@@ -3,8 +3,9 @@
 // Runs are so cheap here (a whole course of the paper's in some 0.01 s at the largest steps) that
 // nothing need be extrapolated:
 //  1. Two fine courses are the pilot's own reference: with located contact, by the method of the
-//     highest order; by what they differ is how well it is known. Where a small disturbance grows
-//     large, in a collapse or a long contact, that is much.
+//     highest order. How well it is known is what they differ by, or what a third one does from a
+//     start some roundings away. Where a small disturbance grows large, in a collapse or a long
+//     contact, that is much.
 //  2. The scene is run by each method, contact resolved and located, in double precision and, where
 //     that can be sooner, single, from the largest stable steps down; the error forecast for a
 //     setting is its measured distance from the pilot's reference.
