@@ -140,7 +140,7 @@ class Pilot {
     const auto third = run({again}, reference_, exact, moved);
     if (!third) return false;
     const double apart = error_of(third->front().errors, request_.observable);
-    if (!(apart <= known_to_)) known_to_ = apart;
+    if (!std::isnan(known_to_) && !(apart <= known_to_)) known_to_ = apart;  // a NaN stays
     return true;
   }
   // All that may be advised, at the largest steps and, from the second call on, smaller ones; those

@@ -2,8 +2,7 @@
 // and for steps with contacts that are located.
 //
 //  1. Each bond once: half the divisions of the listing's way, and the forces of a bond are
-//  opposite
-//     to the last bit, so that they leave the total momentum alone.
+//     opposite to the last bit, so that they leave the total momentum alone.
 //  2. One template for all arithmetics: what two references shall not share is rounding and time
 //     stepping, not the model. (That the model itself is right is for the oracle to say.)
 //  3. F(R)/R = -G u^a + H u^b with u = 1/R^2, a = (p+1)/2, b = (q+1)/2. For the paper's law that is

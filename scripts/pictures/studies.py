@@ -21,7 +21,8 @@ def read_arguments(description, name):
     return parser.parse_args()
 
 
-def check_clean(folder, commit):
+def check_clean(folder, study):
+    commit = study.origin["commit"]
     if "dirty" in commit or commit == "unknown":
         raise RunError(f"{folder}: commit {commit}: allowed is a clean commit")
 
@@ -33,7 +34,7 @@ def read_studies(arguments, name):
         folder = arguments.runs / f"{name}-{scene}"
         found[scene] = accuracy.read_study(folder)
         if not arguments.allow_dirty:
-            check_clean(folder, found[scene].origin["commit"])
+            check_clean(folder, found[scene])
     return found
 
 
