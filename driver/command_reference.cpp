@@ -22,6 +22,7 @@
 #include "driver/run_directory.hpp"
 #include "driver/scene_file.hpp"
 #include "driver/state_file.hpp"
+#include "kernels/stepping/plan.hpp"
 #include "verify/reference_pair.hpp"
 
 namespace bounce {
@@ -125,6 +126,7 @@ void reference(const Options& options, const std::string& command_line) {
   for (const std::string& setting : options.settings) file.set(setting);
   if (options.end) file.end_at(*options.end, "--t-end");
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
+  choose_vector("auto");  // throws on a processor that BondForces is not compiled for
   const Problem problem = load_problem(file, options.initial);
   const Scene scene = file.scene();
 

@@ -34,7 +34,7 @@ class GslFlow {
   GslFlow(const GslFlow&) = delete;  // GSL keeps its address
   GslFlow& operator=(const GslFlow&) = delete;
 
-  [[nodiscard]] const ScalarForces<double>& forces() const { return forces_; }
+  [[nodiscard]] const BondForces<double>& forces() const { return forces_; }
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
   [[nodiscard]] const std::vector<double>& start() const { return start_; }
   [[nodiscard]] const std::vector<double>& end() const { return end_; }
@@ -58,7 +58,7 @@ class GslFlow {
   void cut(double h);
 
   const Problem* problem_;
-  ScalarForces<double> forces_;
+  BondForces<double> forces_;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_driver, Release> driver_;
   std::unique_ptr<gsl_odeiv2_step, Release> cutter_;  // of a multistep or a stiff method

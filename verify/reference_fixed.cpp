@@ -57,7 +57,7 @@ class FixedFlow {
         start_pull_(2 * problem.initial.size()),
         end_pull_(2 * problem.initial.size()) {}
 
-  [[nodiscard]] const ScalarForces<Long>& forces() const { return forces_; }
+  [[nodiscard]] const BondForces<Long>& forces() const { return forces_; }
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
   [[nodiscard]] const std::vector<Long>& start() const { return start_; }
   [[nodiscard]] const std::vector<Long>& end() const { return end_; }
@@ -104,7 +104,7 @@ class FixedFlow {
     resting_->hold(pull.data(), pull.data() + n);
   }
 
-  ScalarForces<Long> forces_;
+  BondForces<Long> forces_;
   Long step_;
   const Resting* resting_ = nullptr;
   std::vector<Long> start_, end_, start_pull_, end_pull_;  // pulls: accelerations x, then y

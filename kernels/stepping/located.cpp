@@ -96,19 +96,24 @@ class LocatedStepper final : public Stepper {
   [[nodiscard]] std::int64_t clear_steps(const State& state) {
     if (!is_finite(state)) return 0;
     const std::size_t n = state.size();
-    pull_.resize(2 * n);
-    flow_.forces()(state.x.data(), state.y.data(), pull_.data(), pull_.data() + n);
     double gap = std::numeric_limits<double>::infinity(), fastest = 0.0, strongest = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       for (const Wall& wall : problem_.walls) {
         gap = std::min(gap, wall_distance(wall, state.x[i], state.y[i]));
       }
       fastest = std::max(fastest, state.vx[i] * state.vx[i] + state.vy[i] * state.vy[i]);
-      strongest = std::max(strongest, pull_[i] * pull_[i] + pull_[n + i] * pull_[n + i]);
     }
     if (!(gap > 0.0)) return 0;
-    const double time =
-        std::min(gap / (4.0 * std::sqrt(fastest)), std::sqrt(gap / std::sqrt(strongest)));
+    const std::int64_t clear = whole_steps(gap / (4.0 * std::sqrt(fastest)));
+    if (clear < fewest_steps_) return 0;
+    pull_.resize(2 * n);
+    flow_.forces()(state.x.data(), state.y.data(), pull_.data(), pull_.data() + n);
+    for (std::size_t i = 0; i < n; ++i) {
+      strongest = std::max(strongest, pull_[i] * pull_[i] + pull_[n + i] * pull_[n + i]);
+    }
+    return std::min(clear, whole_steps(std::sqrt(gap / std::sqrt(strongest))));
+  }
+  [[nodiscard]] std::int64_t whole_steps(double time) const {
     const double steps = time / problem_.step;
     return steps < static_cast<double>(most_steps) ? static_cast<std::int64_t>(steps) : most_steps;
   }

@@ -13,7 +13,7 @@
 //     afterwards, as by the resolved rule, leaves an error of first order, and a ball multiplies
 //     it by 50 000 up to the end (bounce reference).
 //  2. So a ball that is clear of the walls runs on the plan's kernel, without any wall test, and
-//     one that is near runs step by step in contact_course.hpp, in plain code.
+//     one that is near runs step by step in contact_course.hpp, in plain loops.
 //  3. Which of the two follows from the state alone: for how many steps it is far enough away is
 //     decided when the last decision has run out, and a snapshot carries what is left of it. So a
 //     run has the same bits for any threads, vectors and restarts.
@@ -22,8 +22,8 @@
 //     of its greatest acceleration, whatever their directions. A vibration has one or the other.
 //     free_flight.hpp proves a bound, for windows ten times shorter.
 //
-// Cost: near a wall a step takes some 2 us an evaluation for the paper's ball, five to fifteen
-// times the kernels'. The ball is near for 5 to 30 % of the examples.
+// Cost: near a wall a step takes some 1.5 us an evaluation for the paper's ball, four to ten times
+// the kernels'. The ball is near for 5 to 30 % of the examples.
 //
 // A step that is cut is two of other lengths, which a symplectic method does not keep its energy
 // through: with steps of 0.9 of the stable one leapfrog blows up in Examples 4 to 6 (contact.md),
