@@ -134,7 +134,8 @@ std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& ref
 
 std::string accuracy_table(std::span<const TimedRow> rows, const PapersProgram& papers,
                            const CourseRecord& reference, const CourseErrors& bar) {
-  std::string text = "The course, and how well it is known (the difference of two references):\n";
+  std::string text =
+      "The course, and how well it is known (what the reference courses differ by):\n";
   for (const ObservableName& each : observable_names) {
     text += fmt::format("  {:<12} {:>16.10g} {:<5} +- {:.1e}\n", each.name,
                         reference.observables.*each.value, each.unit, bar.observables.*each.value);

@@ -50,7 +50,7 @@ def markdown(found):
         "# Error against run time\n",
         "The paper's program is the listing's scheme and contact with Δt = 1e-6 s on the oracle. As good: in each "
         f"of {', '.join(studies.OBSERVABLES)}, no further from the reference. Errors shown are those of the height "
-        "of the centre at the end. One core; known to: what the two references differ by.\n",
+        "of the centre at the end. One core; known to: what the reference courses differ by.\n",
         "".join("| " + " | ".join(line) + " |\n" for line in lines),
         "".join(f"![{scene}](results/accuracy/{scene}.png)\n" for scene in list(found)[:2]),
         f"Made by `scripts/accuracy.sh` at the commits named, on {', '.join(machines)}; all rows, the other pictures and "

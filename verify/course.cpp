@@ -115,4 +115,18 @@ CourseErrors errors_of(const CourseRecord& course, const CourseRecord& reference
   return errors;
 }
 
+CourseErrors larger_of(const CourseErrors& a, const CourseErrors& b) {
+  const auto larger = [](double one, double other) {
+    return one >= other || std::isnan(one) ? one : other;
+  };
+  CourseErrors both{{},
+                    larger(a.position, b.position),
+                    larger(a.energy_free, b.energy_free),
+                    larger(a.energy, b.energy)};
+  for (const ObservableName& each : observable_names) {
+    both.observables.*each.value = larger(a.observables.*each.value, b.observables.*each.value);
+  }
+  return both;
+}
+
 }  // namespace bounce

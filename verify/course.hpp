@@ -84,4 +84,7 @@ struct CourseErrors {
 /// All infinite if `course` is not finite. Both must have seen the same times.
 CourseErrors errors_of(const CourseRecord& course, const CourseRecord& reference);
 
+/// The larger of each; a NaN if one is.
+CourseErrors larger_of(const CourseErrors& a, const CourseErrors& b);
+
 }  // namespace bounce

@@ -107,6 +107,14 @@ DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> ti
   return both;
 }
 
+double rounding_disturbance(const Problem& problem) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < problem.initial.size(); ++i) {
+    largest = std::max({largest, std::abs(problem.initial.x[i]), std::abs(problem.initial.y[i])});
+  }
+  return 8.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
 Growth growth_of(const DisturbedPair& paths) {
   const ReferencePair& pair = paths.pair;
   Growth growth;

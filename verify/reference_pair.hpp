@@ -49,6 +49,10 @@ DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> ti
                               const ReferenceSettings& settings, double disturbance,
                               const ReferenceTick& tick = {});
 
+/// Some roundings of the largest coordinate, cm: a disturbance as every step in double precision
+/// makes one. What comes of it at the end is what such a course can know at best.
+double rounding_disturbance(const Problem& problem);
+
 /// How the distance between two paths went.
 struct Growth {
   double start = 0.0;     ///< largest distance of a particle at time 0, cm

@@ -96,6 +96,24 @@ TEST(CourseGauge, NothingIsKnownOfACourseThatIsNotFinite) {
   }
 }
 
+TEST(CourseErrorsTest, TheLargerOfTwoIsOfEachAndKeepsWhatIsNotKnown) {
+  CourseErrors a{{}, 1.0, 2.0, nan}, b{{}, 3.0, nan, 1.0};
+  for (const ObservableName& each : observable_names) {
+    a.observables.*each.value = 1.0;
+    b.observables.*each.value = 2.0;
+  }
+  a.observables.rebound = 5.0;
+  b.observables.speed = nan;
+  for (const CourseErrors& both : {larger_of(a, b), larger_of(b, a)}) {
+    EXPECT_EQ(both.position, 3.0);
+    EXPECT_TRUE(std::isnan(both.energy_free));
+    EXPECT_TRUE(std::isnan(both.energy));
+    EXPECT_EQ(both.observables.rebound, 5.0);
+    EXPECT_EQ(both.observables.height, 2.0);
+    EXPECT_TRUE(std::isnan(both.observables.speed));
+  }
+}
+
 // The paper's contact moves the energy that the wall takes by some per cent at any of these steps;
 // the resolved one is right to 1e-3 of it at the largest, and better with the square of the step
 // (a tenth of the step: 100; 20 is asked for, as contacts fall now here, now there within a step).

@@ -318,6 +318,16 @@ std::vector<double> times_to(double end) {
   return times;
 }
 
+TEST(ReferencePairTest, RoundingsAreThoseOfTheLargestCoordinate) {
+  Problem problem = soft_landing();
+  const double size = rounding_disturbance(problem);
+  const double moved = largest_distance(disturbed_start(problem, size), problem.initial);
+  EXPECT_GT(moved, 0.0);
+  EXPECT_LT(moved, 1e-13);  // 15 cm: an ulp is 1.8e-15
+  for (double& x : problem.initial.x) x += 1e6;
+  EXPECT_NEAR(rounding_disturbance(problem) / size, 1e5, 4e4);
+}
+
 TEST(ReferencePairTest, AgreesThroughTheFirstContactsOfExample1) {
   const Problem problem = soft_landing();
   const DisturbedPair both = solve_disturbed(problem, times_to(0.2), {}, 1e-9);
