@@ -66,16 +66,21 @@ std::string unit_of(const std::string& observable) {
   return "cm";
 }
 
-// Without a wall the rule of contact says nothing, and the listing's is the default. The best comes
-// last: the pilot's own courses have it.
+// What any kernel can run. Without a wall the rule of contact says nothing, and the listing's is
+// the default.
+Contact plain_contact(const AdviceRequest& request) {
+  return request.scene.walls.empty() ? Contact::listing : Contact::resolved;
+}
+
+// The best comes last: the pilot's own courses have it.
 std::vector<Contact> contacts_of(const AdviceRequest& request, const Sampling& sampling) {
-  if (request.scene.walls.empty()) return {Contact::listing};
+  const Contact plain = plain_contact(request);
   const Setting located{"leapfrog", Contact::located, 1};
-  if (request.books || !worth_locating(request.scene) ||
+  if (request.scene.walls.empty() || request.books || !worth_locating(request.scene) ||
       !plan_refusal(request.scene, request.initial, located, sampling).empty()) {
-    return {Contact::resolved};
+    return {plain};
   }
-  return {Contact::resolved, Contact::located};
+  return {plain, Contact::located};
 }
 
 // The two methods of the highest order, the highest first.
@@ -99,8 +104,7 @@ std::vector<std::string> finest_methods() {
 std::vector<Precision> precisions_worth_trying(const AdviceRequest& request,
                                                const Sampling& sampling) {
   std::vector<Precision> worth{Precision::double_precision};
-  const Contact contact = request.scene.walls.empty() ? Contact::listing : Contact::resolved;
-  Setting setting{"leapfrog", contact, 1};
+  Setting setting{"leapfrog", plain_contact(request), 1};
   const Problem problem = problem_of(request.scene, request.initial, setting, sampling);
   setting.precision = Precision::single_precision;
   if (make_plan(problem, {"auto", "auto", 1}).kernel != "mirror" &&

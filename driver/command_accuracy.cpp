@@ -221,8 +221,9 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
       "--decades", options->study.sweep.decades,
       "Time steps from the stable one down so many decades, one less for methods above order 2 "
       "with located contact [3]");
-  command->add_option("--per-decade", options->study.sweep.per_decade, "Time steps a decade [3]");
-  command->add_flag("--quick", options->study.quick, "1.5 decades, 2 a decade");
+  command->add_option("--per-decade", options->study.sweep.per_decade,
+                      "Time steps a decade, in the first four times as many [3]");
+  command->add_flag("--quick", options->study.quick, "1.5 decades, 2 a decade, in the first, too");
   command->add_option("--threads", options->threads,
                       "Courses side by side, 1 to 256; 0: one a core [0]");
   command->add_option("--out", options->out, "Directory of results [runs/SCENE-accuracy]");

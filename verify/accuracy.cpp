@@ -89,9 +89,11 @@ std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>&
   const double fewest =
       sampling.every / (sweep.part * stability_limit(*problem.method) / fastest->omega);
   std::vector<Setting> settings;
-  const int count = static_cast<int>(std::lround(sweep.decades * sweep.per_decade));
+  const int a_decade = sweep.per_decade * sweep.first_finer;
+  const int count = static_cast<int>(std::lround(sweep.decades * a_decade));
   for (int k = 0; k <= count; ++k) {
-    const double n = std::ceil(fewest * std::pow(10.0, static_cast<double>(k) / sweep.per_decade));
+    if (k > a_decade && k % sweep.first_finer != 0) continue;
+    const double n = std::ceil(fewest * std::pow(10.0, static_cast<double>(k) / a_decade));
     Setting setting = kind;
     setting.steps_a_sample = std::max<std::int64_t>(1, std::llround(n));
     if (settings.empty() || !(settings.back() == setting)) settings.push_back(setting);

@@ -83,6 +83,7 @@ struct StepSweep {
   double part = 0.9;     ///< the largest
   double decades = 3.0;  ///< from there down
   int per_decade = 3;
+  int first_finer = 1;  ///< times as many in the first decade, whose courses cost next to nothing
 };
 
 /// `kind` at each step of a sweep, the largest first, each a whole part of the sampling interval.

@@ -96,6 +96,27 @@ TEST(CourseGauge, NothingIsKnownOfACourseThatIsNotFinite) {
   }
 }
 
+TEST(AccuracySettings, TheFirstDecadeMayBeFiner) {
+  const Setting kind{"leapfrog", Contact::resolved, 1};
+  Scene scene = impact_scene();
+  scene.law.elasticity = 1e9;
+  const auto steps = [&](const StepSweep& sweep) {
+    std::vector<double> all;
+    for (const Setting& each : settings_of(scene, {}, kind, sampling, sweep)) {
+      all.push_back(static_cast<double>(each.steps_a_sample));
+    }
+    return all;
+  };
+  const std::vector<double> plain = steps({0.9, 2.0, 3}), finer = steps({0.9, 2.0, 3, 4});
+  ASSERT_EQ(plain.size(), 7U);
+  ASSERT_EQ(finer.size(), 13U + 3U);
+  for (const double step : plain) EXPECT_EQ(std::count(finer.begin(), finer.end(), step), 1);
+  // Whole numbers, the smallest some 7000.
+  for (std::size_t k = 1; k < finer.size(); ++k) {
+    EXPECT_NEAR(std::log10(finer[k] / finer[k - 1]), k < 13 ? 1.0 / 12.0 : 1.0 / 3.0, 1e-3) << k;
+  }
+}
+
 TEST(CourseErrorsTest, TheLargerOfTwoIsOfEachAndKeepsWhatIsNotKnown) {
   CourseErrors a{{}, 1.0, 2.0, nan}, b{{}, 3.0, nan, 1.0};
   for (const ObservableName& each : observable_names) {
