@@ -31,7 +31,7 @@ double solver_bytes(const Scene& scene, const std::string& kernel) {
     }
   }
   // Of located contact, beside the kernel: bonds, some states, what is held of a step.
-  constexpr double located_bytes = 450.0;
+  constexpr double located_bytes = 300.0;
   if (is_located(scene.walls)) most += static_cast<double>(size.particles) * located_bytes;
   return static_cast<double>(size.particles) * state_bytes + static_cast<double>(size.list_bytes) +
          most;

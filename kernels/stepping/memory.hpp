@@ -16,7 +16,7 @@ namespace bounce {
 ///                  (ring in compensated precision: 64, low parts beside)
 ///   csr, strict    32 start + 48 (positions stand twice) + 4 + 2 e         index of 8 bytes an
 ///                  and for a list 8 + 6 e                                  entry and less
-///   located contact 450 beside its kernel's
+///   located contact 300 beside its kernel's
 /// After the start is let go, as a run does, every kernel is within 2 states and 8 bytes an entry.
 /// memory_test holds this against what is allocated. Expects a valid scene.
 double solver_bytes(const Scene& scene, const std::string& kernel = "auto");
