@@ -1,57 +1,23 @@
-// bounce accuracy as a user runs it. BOUNCE_PROGRAM is the program's path.
-#include <sys/wait.h>
+// bounce accuracy and bounce advise as a user runs them.
+#include "verify/tests/program_test.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-
-#include <gtest/gtest.h>
-
+namespace bounce {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-double number_after(const std::string& text, const std::string& word) {
-  const std::size_t at = text.find(word);
-  return at == std::string::npos ? std::nan("")
-                                 : std::strtod(text.c_str() + at + word.size(), nullptr);
-}
-
-class DriverAccuracyTest : public testing::Test {
+class DriverAccuracyTest : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+  // Words with blanks between them.
+  int run(const std::string& text, const std::string& command = "accuracy") {
+    std::istringstream from(command + " " + text);
+    Words words;
+    for (std::string word; from >> word;) words.push_back(word);
+    return ProgramTest::run(words);
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // The exit code. Words without characters that a shell would read otherwise.
-  int run(const std::string& words, const std::string& command = "accuracy") {
-    const std::string line = "cd '" + folder_.string() + "' && '" BOUNCE_PROGRAM "' " + command +
-                             " " + words + " >stdout 2>stderr";
-    const int status = std::system(line.c_str());  // NOLINT(cert-env33-c): the test's own words
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
-
-  fs::path folder_;
 };
 
 // The last 0.002 cm of Example 1's fall, and the first tenth of a second of its contact.
 const std::string impact =
-    "example-1 --set ball.centre='[0.0,7.002]' --set ball.velocity='[0.0,-0.77]' "
+    "example-1 --set ball.centre=[0.0,7.002] --set ball.velocity=[0.0,-0.77] "
     "--set time.end=0.1 ";
 const std::string short_course = impact + "--methods listing,leapfrog --quick ";
 
@@ -79,12 +45,6 @@ TEST_F(DriverAccuracyTest, HasTheBaselinesBesideTheMethods) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
   EXPECT_EQ(csv.find("\nleapfrog,"), std::string::npos) << csv;
-}
-
-int count(const std::string& text, const std::string& part) {
-  int found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 // Double for all methods; compensated and single beside it for the simplest and the highest order.
@@ -152,7 +112,7 @@ TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
 }
 
 TEST_F(DriverAccuracyTest, SaysWhatNoKernelCanRun) {
-  const std::string inclined = impact + "--set wall.normal='[0.6,0.8]' --set wall.offset=-2 ";
+  const std::string inclined = impact + "--set wall.normal=[0.6,0.8] --set wall.offset=-2 ";
   ASSERT_EQ(run(inclined + "--methods leapfrog --quick --precisions double,single"), 0) << err();
   const std::string text = "left out: leapfrog, single: ";
   EXPECT_NE(out().find(text), std::string::npos) << out();
@@ -229,3 +189,4 @@ TEST_F(DriverAccuracyTest, AdviceRefusesWhatNothingReaches) {
 }
 
 }  // namespace
+}  // namespace bounce

@@ -1,10 +1,5 @@
 // The rows of `bounce extremes`: what they expect, against what physics predicts; and the command.
-#include <sys/wait.h>
-
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
@@ -16,11 +11,10 @@
 #include "driver/step_check.hpp"
 #include "kernels/model/problem.hpp"
 #include "kernels/stepping/method.hpp"
+#include "verify/tests/program_test.hpp"
 
 namespace bounce {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Rows that are not refused can be started; and a run is refused, or has to be forced, exactly
 // where the spectrum of its start says that the step is beyond the edge.
@@ -92,46 +86,36 @@ TEST(ExtremeRows, BadOnesAreRefusedByName) {
 }
 
 // The program as a user runs it.
-class ExtremesCommand : public testing::Test {
+class ExtremesCommand : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+  // Words with blanks between them.
+  int run(const std::string& text) {
+    std::istringstream from(text);
+    Words words;
+    for (std::string word; from >> word;) words.push_back(word);
+    return ProgramTest::run(words);
   }
-  void TearDown() override { fs::remove_all(folder_); }
-  // The exit code; output in out_.
-  int run(const std::string& arguments) {
-    const std::string command =
-        "cd " + folder_.string() + " && " + BOUNCE_PROGRAM + " " + arguments + " 2>&1";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    out_.clear();
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out_ += static_cast<char>(c);
-    const int status = pclose(pipe);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  fs::path folder_;
-  std::string out_;
+  [[nodiscard]] std::string said() const { return out() + err(); }
 };
 
 TEST_F(ExtremesCommand, TheQuickRowsDoWhatIsExpected) {
-  ASSERT_EQ(run("extremes --quick --out r"), 0) << out_;
-  EXPECT_EQ(out_.find("FAILED"), std::string::npos) << out_;
+  ASSERT_EQ(run("extremes --quick --out r"), 0) << said();
+  EXPECT_EQ(said().find("FAILED"), std::string::npos) << said();
   EXPECT_TRUE(fs::exists(folder_ / "r/extremes.csv"));
   EXPECT_TRUE(fs::exists(folder_ / "r/extremes.md"));
 }
 
 TEST_F(ExtremesCommand, RunsOneRowAndKeepsItsFiles) {
-  ASSERT_EQ(run("extremes --only edge-above-leapfrog-forced --runs r"), 0) << out_;
-  EXPECT_NE(out_.find("1 of 1 rows as expected"), std::string::npos) << out_;
+  ASSERT_EQ(run("extremes --only edge-above-leapfrog-forced --runs r"), 0) << said();
+  EXPECT_NE(said().find("1 of 1 rows as expected"), std::string::npos) << said();
   EXPECT_TRUE(fs::exists(folder_ / "r/edge-above-leapfrog-forced/run.json"));
   EXPECT_TRUE(fs::exists(folder_ / "r/edge-above-leapfrog-forced-on/run.json"));
   EXPECT_EQ(run("extremes --only edge-above-leapfrog-forced --runs r"), 2);  // r is there
   EXPECT_EQ(run("extremes --only edge-abov"), 2);
-  EXPECT_NE(out_.find("no such row"), std::string::npos) << out_;
+  EXPECT_NE(said().find("no such row"), std::string::npos) << said();
   // A row is a scene that can be run by itself.
   EXPECT_EQ(run("run extremes/edge-above-leapfrog"), 2);
-  EXPECT_EQ(run("run extremes/edge-below-leapfrog --steps 10 --quiet"), 0) << out_;
+  EXPECT_EQ(run("run extremes/edge-below-leapfrog --steps 10 --quiet"), 0) << said();
 }
 
 // Rows of one's own, each expecting what does not happen.
@@ -143,24 +127,24 @@ TEST_F(ExtremesCommand, ARowThatDiffersIsAFailure) {
     return run("extremes --only mine.toml --out r");
   };
   const std::string stable = "step = 1e-6\nend = 0.001", unstable = "step = 3.9e-4\nend = 1.0";
-  EXPECT_EQ(row("expect = \"complete\"\nbooked = 100", stable), 0) << out_;
-  EXPECT_EQ(row("expect = \"refused\"", stable), 1) << out_;
-  EXPECT_EQ(row("expect = \"stops\"", stable), 1) << out_;
-  EXPECT_EQ(row("expect = \"refused\"", unstable), 0) << out_;
-  EXPECT_EQ(row("expect = \"complete\"", unstable), 1) << out_;
-  EXPECT_EQ(row("expect = \"refused\"\nsays = \"the moon\"", unstable), 1) << out_;
-  EXPECT_EQ(row("expect = \"stops\"\nforce = true", unstable), 0) << out_;
-  EXPECT_EQ(row("expect = \"complete\"\nforce = true", unstable), 1) << out_;
-  EXPECT_NE(out_.find("FAILED"), std::string::npos) << out_;
-  EXPECT_NE(out_.find("0 of 1 rows as expected"), std::string::npos) << out_;
-  EXPECT_EQ(row("expect = \"stops\"\nforce = true\nsays = \"the moon\"", unstable), 1) << out_;
+  EXPECT_EQ(row("expect = \"complete\"\nbooked = 100", stable), 0) << said();
+  EXPECT_EQ(row("expect = \"refused\"", stable), 1) << said();
+  EXPECT_EQ(row("expect = \"stops\"", stable), 1) << said();
+  EXPECT_EQ(row("expect = \"refused\"", unstable), 0) << said();
+  EXPECT_EQ(row("expect = \"complete\"", unstable), 1) << said();
+  EXPECT_EQ(row("expect = \"refused\"\nsays = \"the moon\"", unstable), 1) << said();
+  EXPECT_EQ(row("expect = \"stops\"\nforce = true", unstable), 0) << said();
+  EXPECT_EQ(row("expect = \"complete\"\nforce = true", unstable), 1) << said();
+  EXPECT_NE(said().find("FAILED"), std::string::npos) << said();
+  EXPECT_NE(said().find("0 of 1 rows as expected"), std::string::npos) << said();
+  EXPECT_EQ(row("expect = \"stops\"\nforce = true\nsays = \"the moon\"", unstable), 1) << said();
   // A row like another that is not as far off as it may be, and one that is farther.
   std::ofstream(folder_ / "mine.toml")
       << "[extreme]\ngroup = \"offset\"\nbecause = \"so\"\nexpect = \"complete\"\nlike = "
          "\"offset-0\"\n[ball]\ncentre = [1e6, 1e6]\nrounding = \"none\"\nvelocity = [1.0, "
          "0.0]\n[time]\nend = 0.5\n[output]\nmonitor_every = 0.001\n";
-  EXPECT_EQ(run("extremes --only mine.toml"), 1) << out_;
-  EXPECT_NE(out_.find("TOO FAR"), std::string::npos) << out_;
+  EXPECT_EQ(run("extremes --only mine.toml"), 1) << said();
+  EXPECT_NE(said().find("TOO FAR"), std::string::npos) << said();
 }
 
 }  // namespace

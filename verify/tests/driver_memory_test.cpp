@@ -32,11 +32,14 @@ SceneFile large_ball() {
 }
 
 // Peak bytes of `bounce run` on this ball; 0 if it failed.
-double peak_of_run(const fs::path& folder, const std::string& kernel) {
+double peak_of_run(const fs::path& folder, const std::string& kernel,
+                   const std::vector<std::string>& more = {}) {
   std::vector<std::string> words{BOUNCE_PROGRAM, "run",   "large-ball",
                                  "--steps",      "4",     "--kernel",
                                  kernel,         "--out", (folder / kernel).string()};
-  for (const std::string& setting : settings) {
+  std::vector<std::string> all = settings;
+  all.insert(all.end(), more.begin(), more.end());
+  for (const std::string& setting : all) {
     words.emplace_back("--set");
     words.push_back(setting);
   }
@@ -66,6 +69,23 @@ TEST(MemoryCheck, ARunTakesNoMoreThanItSays) {
     // It must not refuse what fits easily, either.
     EXPECT_LE(run_bytes(large_ball().scene(), kernel), 2.0 * peak) << kernel;
   }
+  fs::remove_all(name);
+}
+
+// On the floor, so that it walks beside the ball that flies.
+TEST(MemoryCheck, SoDoesOneWithLocatedContact) {
+  std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
+  ASSERT_NE(mkdtemp(name.data()), nullptr);
+  const std::vector<std::string> more{"wall.contact=located", "ball.centre=[0, 1002.0000001]",
+                                      "ball.velocity=[0, -1]"};
+  SceneFile file = large_ball();
+  for (const std::string& setting : more) file.set(setting);
+  const double peak = peak_of_run(name, "ring", more), said = run_bytes(file.scene(), "ring");
+  const double plain = peak_of_run(fs::path(name) / "plain", "ring");
+  EXPECT_GT(plain, 0.0);
+  EXPECT_GT(peak, 1.2 * plain);
+  EXPECT_LE(peak, said);
+  EXPECT_LE(said, 2.0 * peak);
   fs::remove_all(name);
 }
 

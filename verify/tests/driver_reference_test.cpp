@@ -1,65 +1,17 @@
-// bounce reference as a user runs it. BOUNCE_PROGRAM is the program's path.
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
+// bounce reference as a user runs it.
 #include <nlohmann/json.hpp>
 
+#include "verify/tests/program_test.hpp"
+
+namespace bounce {
 namespace {
 
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
-
-class DriverReferenceTest : public testing::Test {
+class DriverReferenceTest : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  // The exit code; 1000 + signal if it was killed.
   int run(Words words) {
-    words.insert(words.begin(), {BOUNCE_PROGRAM, "reference"});
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const pid_t child = fork();
-    if (child == 0) {
-      const int flags = O_WRONLY | O_CREAT | O_TRUNC;
-      if (chdir(folder_.c_str()) != 0) _exit(99);
-      dup2(open("stdout", flags, 0600), STDOUT_FILENO);
-      dup2(open("stderr", flags, 0600), STDERR_FILENO);
-      execv(BOUNCE_PROGRAM, arguments.data());
-      _exit(99);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    words.insert(words.begin(), "reference");
+    return ProgramTest::run(words);
   }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
   // Nothing but what the shell made.
   [[nodiscard]] bool left_nothing() const {
     return std::all_of(fs::directory_iterator(folder_), fs::directory_iterator{},
@@ -75,8 +27,6 @@ class DriverReferenceTest : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(DriverReferenceTest, WritesItsDirectoryWhole) {
@@ -127,3 +77,4 @@ TEST_F(DriverReferenceTest, RefusesWithOneMessageAndLeavesNothing) {
 }
 
 }  // namespace
+}  // namespace bounce

@@ -1,36 +1,8 @@
-// bounce stability as a user runs it. BOUNCE_PROGRAM is the program's path.
-#include <fcntl.h>
-#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill() is POSIX
-#include <sys/wait.h>
-#include <unistd.h>
+// bounce stability as a user runs it.
+#include "verify/tests/program_test.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
-
+namespace bounce {
 namespace {
-
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::size_t lines(const std::string& text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
 
 // All but the last column, which is a time.
 std::string without_seconds(const fs::path& csv) {
@@ -42,43 +14,15 @@ std::string without_seconds(const fs::path& csv) {
   return text;
 }
 
-class DriverStabilityTest : public testing::Test {
+class DriverStabilityTest : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "bounce-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   pid_t start(Words words) {
-    words.insert(words.begin(), {BOUNCE_PROGRAM, "stability"});
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const pid_t child = fork();
-    if (child == 0) {
-      const int flags = O_WRONLY | O_CREAT | O_TRUNC;
-      if (chdir(folder_.c_str()) != 0) _exit(99);
-      dup2(open("stdout", flags, 0600), STDOUT_FILENO);
-      dup2(open("stderr", flags, 0600), STDERR_FILENO);
-      execv(BOUNCE_PROGRAM, arguments.data());
-      _exit(99);
-    }
-    return child;
-  }
-  // The exit code; 1000 + signal if it was killed.
-  static int finish(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    words.insert(words.begin(), "stability");
+    return ProgramTest::start(words);
   }
   int run(const Words& words) { return finish(start(words)); }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
-
   // Runs until so many rows are there, then sends the signal. The exit code as finish() gives it.
-  int run_until(const Words& words, const fs::path& part, std::size_t rows, int signal) {
+  int run_until(const Words& words, const fs::path& part, std::ptrdiff_t rows, int signal) {
     const pid_t child = start(words);
     for (int wait = 0; wait < 6000 && lines(contents(folder_ / part / "rows.csv")) < rows; ++wait) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -86,8 +30,6 @@ class DriverStabilityTest : public testing::Test {
     kill(child, signal);
     return finish(child);
   }
-
-  fs::path folder_;
 };
 
 // More than one batch of flights, so that there is something to stop between.
@@ -193,6 +135,19 @@ TEST_F(DriverStabilityTest, LawsWithoutRingKernelsAreMeasuredToo) {
   EXPECT_NE(contents(folder_ / "s/edge.csv").find(",found,"), std::string::npos);
 }
 
+// Hundreds of bounces side by side: trials take the rule that does the same in the ball's kernels.
+TEST_F(DriverStabilityTest, LocatedContactIsMeasuredAsResolved) {
+  for (const std::string contact : {"resolved", "located"}) {
+    ASSERT_EQ(run({"example-2", "--quick", "--set", "law.elasticity=1e6", "--periods", "100",
+                   "--set", "wall.contact=" + contact, "--methods", "leapfrog", "--out", contact}),
+              0)
+        << err();
+  }
+  const std::string resolved = without_seconds(folder_ / "resolved/edge.csv");
+  EXPECT_NE(resolved.find("\nleapfrog,bounce,E,,1e-06,"), std::string::npos) << resolved;
+  EXPECT_EQ(without_seconds(folder_ / "located/edge.csv"), resolved);
+}
+
 TEST_F(DriverStabilityTest, BadInputIsSaid) {
   const auto refused = [this](Words words, const std::string& why) {
     words.insert(words.begin(), "example-2");
@@ -221,3 +176,4 @@ TEST_F(DriverStabilityTest, BadInputIsSaid) {
 }
 
 }  // namespace
+}  // namespace bounce

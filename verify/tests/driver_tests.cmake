@@ -20,7 +20,8 @@ target_link_libraries(driver_extremes_test PRIVATE bounce_driver GTest::gtest_ma
 add_dependencies(driver_extremes_test bounce)
 gtest_discover_tests(driver_extremes_test PROPERTIES LABELS driver TIMEOUT 600)
 
-foreach(name driver_accuracy_test driver_run_test driver_stability_test)
+foreach(name driver_accuracy_test driver_refusal_test driver_run_test driver_stability_test
+    driver_step_test)
   add_executable(${name} ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp)
   target_compile_definitions(${name} PRIVATE BOUNCE_PROGRAM="$<TARGET_FILE:bounce>")
   target_link_libraries(${name} PRIVATE bounce_options GTest::gtest_main)
