@@ -8,8 +8,10 @@
 
 #include "driver/input_error.hpp"
 #include "driver/load_problem.hpp"
+#include "driver/memory_check.hpp"
 #include "driver/scene_keys.hpp"
 #include "driver/state_file.hpp"
+#include "kernels/model/ball.hpp"
 #include "kernels/stepping/method.hpp"
 #include "verify/baseline.hpp"
 
@@ -48,6 +50,7 @@ void check_numbers(const StudyRequest& request, const Scene& scene) {
     throw InputError(fmt::format("--every {}: allowed is above 0, at most a tenth of time.end = {}",
                                  request.every, scene.time.end));
   }
+  check_path_memory(ball_size(scene.ball).particles, scene.time.end / request.every);
   const StepSweep& sweep = request.sweep;
   if (!(sweep.decades > 0.0 && sweep.decades <= 6.0)) {
     throw InputError(fmt::format("--decades {}: allowed is above 0, at most 6", sweep.decades));
@@ -57,19 +60,26 @@ void check_numbers(const StudyRequest& request, const Scene& scene) {
   }
 }
 
-// Steps of that length in a sampling interval. Beyond the nearest whole number's roundings the step
-// would not be the asked one.
-std::int64_t steps_a_sample(double step, const Sampling& sampling) {
+// Of a sample: some 1e-11 s, far below any of use, far from overflow.
+constexpr double most_steps = 1e9;
+
+// Steps of that length in a sampling interval; nothing if, beyond roundings of the nearest whole
+// number, the step would not be the asked one.
+std::optional<std::int64_t> whole_part(double step, const Sampling& sampling) {
   const double steps = sampling.every / step;
   constexpr double roundings = 1e-9;
-  constexpr double most = 1e9;  // some 1e-11 s: far below any of use, far from overflow
-  if (step > 0.0 && steps < most && std::round(steps) >= 1.0 &&
+  if (step > 0.0 && steps < most_steps && std::round(steps) >= 1.0 &&
       std::abs(steps - std::round(steps)) <= roundings * steps) {
     return std::llround(steps);
   }
+  return {};
+}
+
+std::int64_t steps_a_sample(double step, const Sampling& sampling) {
+  if (const auto steps = whole_part(step, sampling)) return *steps;
   throw InputError(fmt::format(
       "--steps {}: allowed is a whole part of {} s, the time between two looks, at least {:.0e} s",
-      step, sampling.every, sampling.every / most));
+      step, sampling.every, sampling.every / most_steps));
 }
 
 // The paper's rule beside its own scheme and the simplest other one; and in single precision, which
@@ -126,6 +136,24 @@ void add_line(const Setting& kind, const StudyRequest& request, Study& study) {
   study.settings.insert(study.settings.end(), line.begin(), line.end());
 }
 
+// The paper's program, unless there is no wall or its step is no part of the time between two
+// looks.
+void add_papers(Study& study) {
+  if (study.scene.walls.empty()) return;
+  if (!whole_part(papers_step, study.sampling)) {
+    study.left_out.push_back(
+        fmt::format("the paper's program: its step of {} s is no whole part of {} s, the time "
+                    "between two looks",
+                    papers_step, study.sampling.every));
+    return;
+  }
+  study.papers = {"listing", Contact::listing, *whole_part(papers_step, study.sampling)};
+  auto& all = study.settings;
+  if (std::find(all.begin(), all.end(), *study.papers) == all.end()) {
+    all.insert(all.begin(), *study.papers);
+  }
+}
+
 }  // namespace
 
 bool StudyRequest::wants(std::string_view method) const {
@@ -149,6 +177,7 @@ Study make_study(const StudyRequest& request) {
   SceneFile file = SceneFile::find(request.scene);
   for (const std::string& setting : request.settings) file.set(setting);
   if (!request.initial.empty()) file.note_origin("initial state", request.initial);
+  check_memory(file, "auto", available_memory());
   load_problem(file, request.initial);  // throws what is wrong with it
   Study study{std::move(file), {}, {}, {}, {}, {}, {}};
   study.scene = study.file.scene();
@@ -172,11 +201,8 @@ Study make_study(const StudyRequest& request) {
       study.left_out.push_back(fmt::format("{}: it has none of the contacts asked for", name));
     }
   }
-  study.papers = {"listing", Contact::listing, std::llround(study.sampling.every / papers_step)};
-  auto& all = study.settings;
-  if (!study.scene.walls.empty() && std::find(all.begin(), all.end(), study.papers) == all.end()) {
-    all.insert(all.begin(), study.papers);
-  }
+  add_papers(study);
+  const auto& all = study.settings;
   if (all.empty() && !study.left_out.empty()) throw InputError(study.left_out.front());
   return study;
 }

@@ -33,9 +33,9 @@ struct Study {
   Scene scene;
   std::optional<State> initial;
   Sampling sampling;
-  Setting papers;  ///< the paper's program, one of them if there is a wall
+  std::optional<Setting> papers;  ///< the paper's program, one of these; see left_out if not
   std::vector<Setting> settings;
-  std::vector<std::string> left_out;  ///< what no kernel can run, and why
+  std::vector<std::string> left_out;  ///< what cannot be run, and why
 };
 
 /// Double for all; the others for the simplest method and that of the highest order only, as what

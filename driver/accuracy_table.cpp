@@ -90,10 +90,12 @@ std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
     const bool good = std::all_of(
         observable_names.begin(), observable_names.end(), [&](const ObservableName& each) {
           const double least = bar.observables.*each.value;
-          return error_or_bar(errors.*each.value, least) <=
-                 error_or_bar(allowed.*each.value, least);  // false for a NaN
+          const double most = error_or_bar(allowed.*each.value, least);
+          return std::isfinite(most) &&
+                 error_or_bar(errors.*each.value, least) <= most;  // false for a NaN
         });
-    if (good && (!best || rows[i].seconds < rows[*best].seconds)) best = i;
+    if (!good || !std::isfinite(rows[i].seconds)) continue;
+    if (!best || rows[i].seconds < rows[*best].seconds) best = i;
   }
   return best;
 }

@@ -15,7 +15,7 @@
 #include "driver/scene_keys.hpp"
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/plan.hpp"
-#include "verify/reference_solution.hpp"
+#include "verify/reference_pair.hpp"
 
 namespace bounce {
 namespace {
@@ -31,8 +31,8 @@ constexpr int per_decade_located = 4;
 constexpr double first_decades = 1.0;  // of steps
 constexpr double finer = 3.0;          // from one round to the next
 constexpr int most_rounds = 3;
-constexpr double pilot_part = 1.0 / 12.0;  // of the stable step, for the pilot's reference
-constexpr double disturbance = 1e-12;      // cm; a coordinate's rounding is 1e-15, of each step
+constexpr double pilot_part = 1.0 / 12.0;    // of the stable step, for the pilot's reference
+constexpr double least_disturbance = 1e-12;  // cm; a coordinate's rounding is 1e-15, of each step
 // An error is told apart from what the pilot knows if it is that much larger.
 constexpr double margin = 3.0;
 
@@ -119,6 +119,8 @@ class Pilot {
   explicit Pilot(const AdviceRequest& request)
       : request_(request), sampling_(sampling_of(request.scene, looks)) {
     sampling_.exact = false;  // as the run will be
+    const OutputSpec& output = request.scene.output;
+    longest_step_ = std::min(output.monitor_every, output.frames_every.value_or(longest_step_));
     contacts_ = contacts_of(request, sampling_);
     precisions_ = precisions_worth_trying(request, sampling_);
   }
@@ -139,8 +141,9 @@ class Pilot {
     // In a collapse two courses may end alike by chance. A third, from a start some roundings away,
     // tells what the motion makes of roundings.
     const Setting again = fine(0, smaller);
+    const Problem problem = problem_of(request_.scene, request_.initial, again, exact);
     const State moved =
-        disturbed_start(problem_of(request_.scene, request_.initial, again, exact), disturbance);
+        disturbed_start(problem, std::max(least_disturbance, rounding_disturbance(problem)));
     const auto third = run({again}, reference_, exact, moved);
     if (!third) return false;
     const double apart = error_of(third->front().errors, request_.observable);
@@ -206,6 +209,10 @@ class Pilot {
     if (found.empty()) {
       throw InputError("there is nothing to advise on: nothing vibrates in this scene");
     }
+    auto fewest = static_cast<std::int64_t>(std::ceil(sampling_.every / longest_step_));
+    if (sampling_.every / static_cast<double>(fewest) > longest_step_) ++fewest;  // by a rounding
+    for (Setting& each : found) each.steps_a_sample = std::max(each.steps_a_sample, fewest);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
   [[nodiscard]] std::optional<std::vector<AccuracyRow>> run(const std::vector<Setting>& all,
@@ -246,6 +253,8 @@ class Pilot {
   Sampling sampling_;
   std::vector<Contact> contacts_;
   std::vector<Precision> precisions_;
+  // s; the run will be looked at, and write a frame, no more often than each step.
+  double longest_step_ = std::numeric_limits<double>::infinity();
   CourseRecord reference_;
   double known_to_ = 0.0;
   double smallest_ = 1.0;  // steps of the next candidates, times smaller than the largest
@@ -262,6 +271,12 @@ std::optional<Advice> advise(const AdviceRequest& request) {
   double smaller = 1.0, known_before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round, smaller *= finer) {
     if (!pilot.find_reference(smaller)) return std::nullopt;
+    if (std::isnan(pilot.known_to())) {
+      throw InputError(
+          fmt::format("--observable {}: allowed is another; of this course it is not known (places "
+                      "are compared before the first contact, and it may start with one)",
+                      request.observable));
+    }
     if (!(margin * pilot.known_to() <= request.error)) {
       // Not known well enough. A finer pilot may know more, but not where this one knew no better
       // than the one before.

@@ -44,9 +44,9 @@ struct Advice {
   std::size_t courses = 0;  ///< run by the pilot
 };
 
-/// Throws InputError for an observable that does not exist, an error that is not above 0, a scene
-/// in which nothing vibrates, or an error that nothing reaches, with the smallest that something
-/// does. Nothing if it was interrupted.
+/// Throws InputError for an observable that does not exist or that the course does not have, an
+/// error that is not above 0, a scene in which nothing vibrates, or an error that nothing reaches,
+/// with the smallest that something does. Nothing if it was interrupted.
 std::optional<Advice> advise(const AdviceRequest& request);
 
 /// The advice and its forecasts, for a person: some lines, without an end of line. The precision is

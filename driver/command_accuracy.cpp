@@ -143,6 +143,7 @@ int interrupted_exit() {
 
 int accuracy(const Options& options, const std::string& command_line) {
   check_threads(options.threads);
+  choose_vector("auto");  // throws on a processor that BondForces is not compiled for
   const Study study = make_study(options.study);
   RunDirectory directory(options.directory(), options.force, "accuracy.csv");
   catch_interrupts();
@@ -161,7 +162,8 @@ int accuracy(const Options& options, const std::string& command_line) {
   PapersProgram papers;
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const AccuracyRow& row = (*rows)[i];
-    if (row.setting == study.papers) papers = {i, times.oracle * static_cast<double>(row.steps)};
+    if (study.papers && row.setting == *study.papers)
+      papers = {i, times.oracle * static_cast<double>(row.steps)};
     timed.push_back({row, times.rows[i]});
   }
   try {

@@ -7,7 +7,9 @@
 #include "driver/commands.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/load_problem.hpp"
+#include "driver/memory_check.hpp"
 #include "driver/scene_file.hpp"
+#include "driver/shell_word.hpp"
 #include "driver/state_file.hpp"
 #include "kernels/stepping/plan.hpp"
 
@@ -25,9 +27,9 @@ struct Options {
 
 // The command that runs it, to be pasted.
 std::string run_text(const Options& options, const Advice& advice) {
-  std::string text = "bounce run " + options.scene;
-  for (const std::string& setting : options.settings) text += fmt::format(" --set '{}'", setting);
-  if (!options.initial.empty()) text += fmt::format(" --initial '{}'", options.initial);
+  std::string text = "bounce run " + shell_word(options.scene);
+  for (const std::string& setting : options.settings) text += " --set " + shell_word(setting);
+  if (!options.initial.empty()) text += " --initial " + shell_word(options.initial);
   for (const std::string& setting : settings_of(advice, options.request.scene)) {
     text += " --set " + setting;
   }
@@ -38,6 +40,7 @@ int advise_on(Options& options) {
   SceneFile file = SceneFile::find(options.scene);
   for (const std::string& setting : options.settings) file.set(setting);
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
+  check_memory(file, "auto", available_memory());
   load_problem(file, options.initial);  // throws what is wrong with it
   check_threads(options.request.threads);
   options.request.scene = file.scene();
@@ -71,7 +74,7 @@ void add_advise_command(CLI::App& program, CommandContext& context) {
                       "For the search, 1 to 256; 0: one a core [0]");
   command->footer(
       "It runs the scene some hundred times with large steps, and compares with a fine run; some\n"
-      "seconds for the paper's examples.\n"
+      "ten seconds for the paper's examples.\n"
       "Examples:\n"
       "  bounce advise example-1 --error 1e-3\n"
       "  bounce advise example-2 --error 1e-2 --observable energy_lost\n"

@@ -17,6 +17,7 @@
 #include "driver/files.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/load_problem.hpp"
+#include "driver/memory_check.hpp"
 #include "driver/progress.hpp"
 #include "driver/reference_record.hpp"
 #include "driver/run_directory.hpp"
@@ -70,18 +71,6 @@ std::vector<std::int64_t> output_steps(const Scene& scene, double every) {
   return steps;
 }
 
-// Three paths are held whole.
-void refuse_too_much(std::size_t particles, std::size_t outputs) {
-  constexpr double most = 2e9;  // bytes
-  const double bytes = 3.0 * 32.0 * static_cast<double>(particles) * static_cast<double>(outputs);
-  if (!(bytes <= most)) {
-    throw InputError(fmt::format(
-        "--every: {} particles at {} times would take {:.1f} GB; allowed are 2 (a larger --every "
-        "takes less)",
-        particles, outputs, bytes * 1e-9));
-  }
-}
-
 double shortest_bond(const Problem& problem) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const BondClass& bond : problem.classes) shortest = std::min(shortest, bond.rest);
@@ -127,6 +116,7 @@ void reference(const Options& options, const std::string& command_line) {
   if (options.end) file.end_at(*options.end, "--t-end");
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   choose_vector("auto");  // throws on a processor that BondForces is not compiled for
+  check_memory(file, "auto", available_memory());
   const Problem problem = load_problem(file, options.initial);
   const Scene scene = file.scene();
 
@@ -134,7 +124,7 @@ void reference(const Options& options, const std::string& command_line) {
   demand("--disturbed", options.disturbance, 1e-15, 1.0);
   if (options.step) demand("--step", *options.step, 1e-12, scene.time.end);
   const std::vector<std::int64_t> steps = output_steps(scene, options.every);
-  refuse_too_much(problem.initial.size(), steps.size());
+  check_path_memory(problem.initial.size(), static_cast<double>(steps.size()));
   std::vector<double> times;
   for (const std::int64_t step : steps) {
     times.push_back(static_cast<double>(step) * scene.time.step);

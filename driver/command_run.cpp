@@ -71,6 +71,7 @@ std::optional<std::string> take_advice(const Options& options, SceneFile& file) 
   request.error = *options.error;
   request.observable = options.observable;
   request.books = options.ledger;
+  check_memory(file, options.request.kernel, available_memory());
   load_problem(file, options.initial);  // throws what is wrong with it
   catch_interrupts();
   const auto advice = advise(request);
@@ -291,7 +292,8 @@ void add_options(CLI::App& command, Options& options) {
   add_set_option(command, options.settings);
   CLI::Option* steps = command.add_option("--steps", options.steps, "Stop after N steps");
   command.add_option("--t-end", options.end, "Stop at time T, s")->excludes(steps);
-  command.add_option("--kernel", options.request.kernel, "auto, or a kernel of bounce list [auto]");
+  CLI::Option* kernel = command.add_option("--kernel", options.request.kernel,
+                                           "auto, or a kernel of bounce list [auto]");
   command.add_option("--vector", options.request.vector, "auto, avx2 or avx512 [auto]");
   command.add_option("--threads", options.request.threads, "1 to 256; 0: as the plan decides [0]");
   command.add_option(
@@ -303,7 +305,7 @@ void add_options(CLI::App& command, Options& options) {
   auto* error = command.add_option(
       "--error", options.error,
       "Asked error: method, step, contact and precision are chosen as bounce advise does");
-  error->excludes(steps);
+  error->excludes(steps)->excludes(kernel);
   command.add_option("--observable", options.observable, "Of which it is the error [height]")
       ->needs(error);
   command.add_flag("--listing-frames", options.listing_frames,

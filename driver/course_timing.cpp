@@ -6,9 +6,12 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "kernels/stepping/plan.hpp"
+#include "verify/energy_judge.hpp"
 #include "verify/oracle_stepper.hpp"
 
 namespace bounce {
@@ -84,7 +87,8 @@ class Kinds {
 
 // Located contact takes longer wherever a wall is near, which no observable tells, and a contact
 // takes its time whatever the step: of each such method two courses are run whole, those with the
-// fewest steps and with four times as many, and the rest lies on the line through them.
+// fewest steps and with four times as many, and the rest lies on the line through them. A ball that
+// has blown up is elsewhere: such a course tells nothing.
 class WholeCourses {
  public:
   WholeCourses(const Scene& scene, const std::optional<State>& initial, const Sampling& sampling,
@@ -97,21 +101,10 @@ class WholeCourses {
     for (auto& [method, found] : methods) {
       std::sort(found.begin(), found.end(),
                 [](const AccuracyRow* x, const AccuracyRow* y) { return x->steps < y->steps; });
-      const auto apart = std::find_if(found.begin(), found.end(), [&](const AccuracyRow* row) {
-        return row->steps >= 4 * found.front()->steps;
-      });
-      const AccuracyRow& few = *found.front();
-      const AccuracyRow& many = apart == found.end() ? *found.back() : **apart;
-      const double seconds = time_of(scene, initial, sampling, few);
-      const auto steps = static_cast<double>(few.steps);
-      Line line{0.0, seconds / steps};
-      if (many.steps > few.steps) {
-        const double more = time_of(scene, initial, sampling, many) - seconds;
-        const double a_step = more / static_cast<double>(many.steps - few.steps);
-        // A negative part would be noise.
-        if (a_step > 0.0 && seconds > a_step * steps) line = {seconds - a_step * steps, a_step};
-      }
-      lines_[method] = line;
+      const auto time = [&](const AccuracyRow& row) {
+        return time_of(problem_of(scene, initial, row.setting, sampling), row.steps);
+      };
+      if (const auto line = line_of(found, time)) lines_[method] = *line;
     }
   }
   [[nodiscard]] double seconds(const AccuracyRow& row) const {
@@ -125,14 +118,35 @@ class WholeCourses {
     double once = 0.0, a_step = 0.0;  // s
   };
 
-  static double time_of(const Scene& scene, const std::optional<State>& initial,
-                        const Sampling& sampling, const AccuracyRow& row) {
+  // Of courses by their number of steps, each with its time or, if it has blown up, nothing.
+  template <class Time>
+  static std::optional<Line> line_of(std::span<const AccuracyRow* const> found, const Time& time) {
+    std::optional<double> seconds;
+    while (!found.empty() && !(seconds = time(*found.front()))) found = found.subspan(1);
+    if (!seconds) return std::nullopt;
+    const std::int64_t few = found.front()->steps;
+    const auto apart = std::find_if(found.begin(), found.end(),
+                                    [&](const AccuracyRow* row) { return row->steps >= 4 * few; });
+    const AccuracyRow& many = apart == found.end() ? *found.back() : **apart;
+    const auto steps = static_cast<double>(few);
+    const auto more = many.steps > few ? time(many) : std::nullopt;
+    if (!more) return Line{0.0, *seconds / steps};
+    const double a_step = (*more - *seconds) / static_cast<double>(many.steps - few);
+    // A negative part would be noise.
+    if (!(a_step > 0.0 && *seconds > a_step * steps)) return Line{0.0, *seconds / steps};
+    return Line{*seconds - a_step * steps, a_step};
+  }
+
+  static std::optional<double> time_of(const Problem& problem, std::int64_t steps) {
     constexpr std::size_t turns = 3;
-    const Problem problem = problem_of(scene, initial, row.setting, sampling);
+    constexpr double blown_up = 100.0;  // times its energy, as for bounce stability
     const auto stepper = make_stepper(problem, make_plan(problem, {"auto", "auto", 1}));
     const Snapshot start = stepper->save();
     std::vector<double> times(turns);
-    for (double& time : times) time = seconds_of(*stepper, start, row.steps);
+    for (double& time : times) {
+      time = seconds_of(*stepper, start, steps);
+      if (!EnergyJudge(problem, blown_up).is_good(stepper->state())) return std::nullopt;
+    }
     std::sort(times.begin(), times.end());
     return times[turns / 2];
   }

@@ -9,6 +9,7 @@
 #include "driver/commands.hpp"
 #include "driver/input_error.hpp"
 #include "driver/origin.hpp"
+#include "driver/shell_word.hpp"
 #include "kernels/model/scene.hpp"
 #include "kernels/stepping/plan.hpp"
 
@@ -40,12 +41,7 @@ std::string version_text() {
 std::string command_line(int argc, char** argv) {
   std::string line = "bounce";
   for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool plain =
-        !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;!#~") == std::string::npos;
-    std::string quoted;
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += plain ? " " + word : " '" + quoted + "'";
+    line += " " + shell_word(argv[i]);
   }
   return line;
 }

@@ -77,4 +77,15 @@ void check_memory(const SceneFile& file, const std::string& kernel, double avail
                   std::floor(most), particles, needed / 1e9, each, available / 1e9)));
 }
 
+void check_path_memory(std::size_t particles, double times) {
+  constexpr double most = 2e9;  // bytes
+  const double bytes = 3.0 * 32.0 * static_cast<double>(particles) * times;
+  if (!(bytes <= most)) {
+    throw InputError(
+        fmt::format("--every: {} particles at {:.6g} times would take {:.1f} GB; allowed are 2 (a "
+                    "larger --every takes less)",
+                    particles, times, bytes * 1e-9));
+  }
+}
+
 }  // namespace bounce

@@ -238,15 +238,16 @@ std::string reference_table(const ReferenceRecord& record, const ReferenceSettin
                         each.value ? fmt::format("{:.13g}", *each.value) : "-",
                         each.error ? fmt::format("{:.1e}", *each.error) : "-", each.unit);
   }
-  const std::size_t before = pair.last_before_contact();
-  text += fmt::format(
-      "\nLargest difference of a position: {:.1e} cm at t = {:.6g} s, before the first contact; "
-      "{:.1e} cm at the end.\n",
-      distance_before_contact(pair), pair.times[before], end_distance(pair));
-  text += fmt::format(
-      "A start disturbed by {:.1e} cm is {:.1e} cm off at the first contact, {:.1e} cm at the end: "
-      "times {:.2g}",
-      growth.start, growth.contact, growth.end, growth.factor());
+  const bool touches = !pair.adaptive.run.events.empty() || !pair.fixed.run.events.empty();
+  text += "\nLargest difference of a position: ";
+  if (touches) {
+    text += fmt::format("{:.1e} cm at t = {:.6g} s, before the first contact; ",
+                        distance_before_contact(pair), pair.times[pair.last_before_contact()]);
+  }
+  text += fmt::format("{:.1e} cm at the end.\nA start disturbed by {:.1e} cm is ",
+                      end_distance(pair), growth.start);
+  if (touches) text += fmt::format("{:.1e} cm off at the first contact, ", growth.contact);
+  text += fmt::format("{:.1e} cm at the end: times {:.2g}", growth.end, growth.factor());
   text += std::isfinite(growth.rate) ? fmt::format(", {:+.2f} e-folds a second.\n", growth.rate)
                                      : std::string(".\n");
   // A distance as large as that is no error bar of a position any more.

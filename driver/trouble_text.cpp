@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/shell_word.hpp"
+
 namespace bounce {
 namespace {
 
@@ -92,10 +94,9 @@ std::string how_to_go_on(const RunRecord& record, const std::string& directory) 
   std::string text = fmt::format("The last good state, of step {}, is in {}/final.csv.",
                                  record.result.step, directory);
   if (const auto step = record.trouble_report->stable_step) {
-    text += fmt::format(
-        " It can be run on:\n  bounce run {0}/scene.toml --initial {0}/final.csv --set "
-        "time.step={1:.2g}",
-        directory, *step);
+    text += fmt::format(" It can be run on:\n  bounce run {} --initial {} --set time.step={:.2g}",
+                        shell_word(directory + "/scene.toml"), shell_word(directory + "/final.csv"),
+                        *step);
   }
   return text + "\n";
 }

@@ -65,6 +65,9 @@ Problem problem_of(const Scene& scene, const std::optional<State>& initial, cons
   chosen.time.step = sampling.every / static_cast<double>(setting.steps_a_sample);
   chosen.time.precision = setting.precision;
   for (Wall& wall : chosen.walls) wall.contact = setting.contact;
+  // When the scene writes is no matter of a course, which may have longer steps.
+  chosen.output = OutputSpec();
+  chosen.output.monitor_every = chosen.time.step;
   Problem problem = make_problem(chosen, initial);
   if (sampling.exact) problem.step = chosen.time.step;
   return problem;

@@ -57,12 +57,13 @@ struct AccuracyRow {
   std::int64_t steps = 0;  ///< of the whole course
   std::int64_t evaluations = 0;  ///< of the force
   std::string kernel;
-  std::string note;     ///< of a baseline that was not finished: why
-  CourseRecord record;  ///< without the state before the impact
+  std::string note;  ///< of a baseline that was not finished: why
+  CourseRecord record;
   CourseErrors errors;
 };
 
-/// The scene by a setting, whatever the scene itself says of method, step, contact and precision.
+/// The scene by a setting, whatever the scene itself says of method, step, contact, precision and
+/// output.
 /// Throws SceneError.
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                    const Sampling& sampling);

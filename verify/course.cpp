@@ -19,7 +19,8 @@ double nearest_distance(const Problem& problem, const State& state) {
   return nearest;
 }
 
-double largest(double a, double b) { return a >= b ? a : b; }  // b if it is not a number
+// Either, if it is not a number.
+double largest(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
 double largest_distance(const State& a, const State& b) {
   double found = 0.0;
@@ -116,15 +117,12 @@ CourseErrors errors_of(const CourseRecord& course, const CourseRecord& reference
 }
 
 CourseErrors larger_of(const CourseErrors& a, const CourseErrors& b) {
-  const auto larger = [](double one, double other) {
-    return one >= other || std::isnan(one) ? one : other;
-  };
   CourseErrors both{{},
-                    larger(a.position, b.position),
-                    larger(a.energy_free, b.energy_free),
-                    larger(a.energy, b.energy)};
+                    largest(a.position, b.position),
+                    largest(a.energy_free, b.energy_free),
+                    largest(a.energy, b.energy)};
   for (const ObservableName& each : observable_names) {
-    both.observables.*each.value = larger(a.observables.*each.value, b.observables.*each.value);
+    both.observables.*each.value = largest(a.observables.*each.value, b.observables.*each.value);
   }
   return both;
 }

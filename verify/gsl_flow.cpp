@@ -76,6 +76,10 @@ GslFlow::GslFlow(const Problem& problem, const gsl_odeiv2_step_type* type, doubl
     throw ReferenceError("GSL's stiff steppers keep dense matrices: at most " +
                          std::to_string(most_particles) + " particles");
   }
+  // What GSL cannot do (memory, a matrix without inverse) it says by what it returns; it would end
+  // the program otherwise.
+  static gsl_error_handler_t* const before = gsl_set_error_handler_off();
+  static_cast<void>(before);
   const std::vector<double> scale = scale_of(problem);
   driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type, first_step, tolerance, 0.0, 1.0,
                                                    0.0, scale.data()));
@@ -112,10 +116,10 @@ double GslFlow::attempt(double left) {
     next_ = h = finite ? proposed : h / 10.0;
     // Far below the period of any vibration that double precision could follow.
     constexpr double least_step = 1e-18;
-    if (!(h > least_step)) {
+    if (!(h > least_step) || time_ + h == time_) {
       throw ReferenceError(
-          "the adaptive solution's step fell below 1e-18 s: no step follows the motion to this "
-          "tolerance");
+          "the adaptive solution's step fell below 1e-18 s or a rounding of the time: no step "
+          "follows the motion to this tolerance");
     }
   }
 }

@@ -122,7 +122,7 @@ Growth growth_of(const DisturbedPair& paths) {
     const double distance = largest_distance(pair.adaptive.states[k], paths.disturbed.states[k]);
     if (k == 0) growth.start = distance;
     if (k == pair.last_before_contact()) growth.contact = distance;
-    if (!(distance <= growth.greatest)) growth.greatest = distance;
+    if (distance > growth.greatest || std::isnan(distance)) growth.greatest = distance;
     growth.end = distance;
   }
   const double time = pair.times.back() - pair.times[pair.last_before_contact()];

@@ -14,6 +14,30 @@ Real power(Real u, Real exponent) {
   return std::pow(u, exponent);
 }
 
+// Two loops that vectors may take: within each, what is written stands nowhere else. (The near and
+// the far ends of a run are of one array, and may overlap.)
+template <class Real, class Force>
+void act_near(std::size_t count, const Real* xi, const Real* yi, const Real* xj, const Real* yj,
+              const Force& force, Real* __restrict fx, Real* __restrict fy, Real* __restrict axi,
+              Real* __restrict ayi) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Real dx = xi[k] - xj[k], dy = yi[k] - yj[k];
+    const Real f = force(1 / (dx * dx + dy * dy));
+    fx[k] = f * dx;
+    fy[k] = f * dy;
+    axi[k] += fx[k];
+    ayi[k] += fy[k];
+  }
+}
+template <class Real>
+void act_far(std::size_t count, const Real* __restrict fx, const Real* __restrict fy,
+             Real* __restrict axj, Real* __restrict ayj) {
+  for (std::size_t k = 0; k < count; ++k) {
+    axj[k] -= fx[k];
+    ayj[k] -= fy[k];
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -78,21 +102,10 @@ void BondForces<Real>::add_bonds(const Real* x, const Real* y, Real* ax, Real* a
     for (std::size_t done = 0; done < run.length; done += block) {
       const std::size_t count = std::min(block, run.length - done);
       const std::size_t i = run.first + done, j = run.other + done;
-      const Real *const xi = x + i, *const yi = y + i, *const xj = x + j, *const yj = y + j;
-      Real* const __restrict axi = ax + i, * const __restrict ayi = ay + i;
-      for (std::size_t k = 0; k < count; ++k) {
-        const Real dx = xi[k] - xj[k], dy = yi[k] - yj[k];
-        const Real f = law(bond, 1 / (dx * dx + dy * dy));
-        fx[k] = f * dx;
-        fy[k] = f * dy;
-        axi[k] += fx[k];
-        ayi[k] += fy[k];
-      }
-      Real* const __restrict axj = ax + j, * const __restrict ayj = ay + j;
-      for (std::size_t k = 0; k < count; ++k) {
-        axj[k] -= fx[k];
-        ayj[k] -= fy[k];
-      }
+      act_near(
+          count, x + i, y + i, x + j, y + j, [&](Real u) { return law(bond, u); }, fx.data(),
+          fy.data(), ax + i, ay + i);
+      act_far(count, fx.data(), fy.data(), ax + j, ay + j);
     }
   }
 }

@@ -54,16 +54,18 @@ def read_study(folder):
     path = folder / "accuracy.csv"
     try:
         with open(path, newline="") as file:
-            rows = list(csv.DictReader(file))
+            rows = list(csv.DictReader(file, restval=None))
         for row in rows:
             for key, text in row.items():
+                if text is None:
+                    raise ValueError(f"a row without {key}")
                 if key not in TEXTS:
                     row[key] = float(text) if text else math.nan
         origin = json.loads((folder / "origin.json").read_text())
     except (OSError, TypeError, ValueError) as error:
         raise RunError(f"{path}: cannot be read: {error}") from error
     wanted = ("precision", "dt", "seconds", "evaluations", *(f"error_{name}" for name in PANELS))
-    if len(rows) < 2 or rows[0]["method"] != "reference" or any(key not in rows[0] for key in wanted):
+    if len(rows) < 2 or rows[0].get("method") != "reference" or any(key not in rows[0] for key in wanted):
         raise RunError(f"{path}: no rows of bounce accuracy")
     return Study(rows[0], rows[1:], origin)
 

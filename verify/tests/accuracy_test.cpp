@@ -370,6 +370,11 @@ TEST(CheapestAsGood, MustBeAsGoodInAll) {
   rows[4].row.errors.observables.speed = 1e-3;
   EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), 4U);
   EXPECT_EQ(cheapest_as_good(rows, {}, bar_of(0.0)), std::nullopt);
+  // A run time that is not known is no cheap one, and what went astray is no measure.
+  rows[4].seconds = nan;
+  EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), 2U);
+  rows[0].row.errors = bar_of(infinity);
+  EXPECT_EQ(cheapest_as_good(rows, {0, 100.0}, bar_of(0.0)), std::nullopt);
 }
 
 // Below the reference's own error bar nothing can be told apart.
@@ -397,6 +402,23 @@ TEST(AccuracyCsv, QuotesWhyACourseWasNotFinished) {
   EXPECT_EQ(commas(noted), commas(head) + 1) << noted;  // the text's own
   EXPECT_EQ(commas(plain), commas(head)) << plain;
   EXPECT_NE(accuracy_table(rows, {}, {}, bar_of(0.0)).find("(too long, says"), std::string::npos);
+}
+
+// Beyond the stable step a ball flies apart, and where it is then takes another time.
+TEST(CourseTiming, ALocatedCourseThatHasBlownUpTellsNothing) {
+  const Sampling short_course{0.01, 4};
+  const Setting kind{"leapfrog", Contact::located, 1};
+  const auto seconds = [&](const std::vector<Setting>& settings) {
+    const auto rows = measure_accuracy(impact_scene(), {}, settings, short_course, {}, 1,
+                                       [](std::size_t) { return true; });
+    for (const AccuracyRow& row : *rows) EXPECT_TRUE(row.record.finite);
+    return time_courses(impact_scene(), {}, short_course, *rows, false, 1).rows;
+  };
+  Setting beyond = kind, stable = kind;
+  beyond.steps_a_sample = 6;  // 1.7 ms; stable are 1.5
+  stable.steps_a_sample = 10;
+  EXPECT_TRUE(std::isnan(seconds({beyond})[0]));
+  EXPECT_GT(seconds({beyond, stable})[0], 0.0);
 }
 
 TEST(StepTiming, LeavesTheSteppersAsTheyWere) {

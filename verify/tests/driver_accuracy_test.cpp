@@ -111,6 +111,27 @@ TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
   EXPECT_EQ(csv.find("\nyoshida-4,resolved,double,"), std::string::npos) << csv;
 }
 
+// What the scene writes, and how often, is no matter of the study.
+TEST_F(DriverAccuracyTest, LooksMayBeRarerThanTheScenesOwn) {
+  ASSERT_EQ(run(impact + "--set time.end=0.2 --every 0.02 --methods leapfrog --contacts resolved "
+                         "--precisions double --quick"),
+            0)
+      << err();
+  EXPECT_EQ(run(impact + "--error 1 --set output.monitor_every=0.001", "advise"), 0) << err();
+  EXPECT_LE(number_after(out(), "time step "), 0.001) << out();  // 0.00138 would be stable
+  EXPECT_EQ(run(impact + "--error 1 --set output.monitor_every=0.001 --out r", "run"), 0) << err();
+}
+
+TEST_F(DriverAccuracyTest, ThePapersProgramHasItsOwnStepOrIsLeftOut) {
+  ASSERT_EQ(run(impact + "--set time.end=0.1234567 --methods leapfrog --contacts resolved "
+                         "--precisions double --quick"),
+            0)
+      << err();
+  EXPECT_NE(out().find("left out: the paper's program: its step of 1e-06 s"), std::string::npos)
+      << out();
+  EXPECT_EQ(out().find("listing"), std::string::npos) << out();
+}
+
 TEST_F(DriverAccuracyTest, SaysWhatNoKernelCanRun) {
   const std::string inclined = impact + "--set wall.normal=[0.6,0.8] --set wall.offset=-2 ";
   ASSERT_EQ(run(inclined + "--methods leapfrog --quick --precisions double,single"), 0) << err();
@@ -139,6 +160,8 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
   refused("example-1 --steps 0.02", "--steps 0.02: allowed is a whole part");
   refused("example-1 --every 0", "--every 0: allowed is above 0");
   refused("example-1 --every 14", "a tenth of time.end = 15");
+  refused("example-1 --every 1e-6", "--every: 360 particles at 1.5e+07 times would take 518.4 GB");
+  refused("example-1 --every 1e-300", "--every: 360 particles at ");
   refused("example-1 --decades nan", "--decades nan: allowed is above 0");
   refused("example-1 --per-decade 0", "--per-decade 0: allowed is 1 to 100");
   refused("example-1 --threads 1000", "allowed");
@@ -184,6 +207,13 @@ TEST_F(DriverAccuracyTest, AdviceRefusesWhatNothingReaches) {
   EXPECT_NE(err().find("--error -1: allowed is a number above 0"), std::string::npos) << err();
   EXPECT_EQ(run(impact + "--error 1 --observable colour", "advise"), 2);
   EXPECT_NE(err().find("--observable colour: unknown"), std::string::npos) << err();
+  EXPECT_EQ(run("example-7 --set output.frames_at=[0.0] --set time.end=0.02 --error 1 "
+                "--observable position",
+                "advise"),
+            2);
+  EXPECT_NE(err().find("--observable position: allowed is another"), std::string::npos) << err();
+  EXPECT_EQ(run(impact + "--error 1 --kernel ring --out there", "run"), 2);
+  EXPECT_NE(err().find("--kernel"), std::string::npos) << err();
   EXPECT_EQ(run(impact + "--error 1e-30 --out there", "run"), 2);
   EXPECT_FALSE(fs::exists(folder_ / "there"));
 }

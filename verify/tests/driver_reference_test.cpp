@@ -58,6 +58,12 @@ TEST_F(DriverReferenceTest, WritesItsDirectoryWhole) {
   EXPECT_EQ(lines(contents(made / "reference.csv")), 1 + 3);
 }
 
+TEST_F(DriverReferenceTest, TellsOfNoContactWhereThereIsNone) {
+  ASSERT_EQ(run(landing({"--t-end", "0.005", "--every", "0.001"})), 0) << err();
+  EXPECT_EQ(out().find("the first contact"), std::string::npos) << out();
+  EXPECT_NE(out().find("cm at the end"), std::string::npos) << out();
+}
+
 TEST_F(DriverReferenceTest, RefusesWithOneMessageAndLeavesNothing) {
   const auto refused = [&](const Words& words, const std::string& why) {
     EXPECT_EQ(run(words), 2) << words.back();

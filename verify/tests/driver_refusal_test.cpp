@@ -10,10 +10,21 @@ TEST_F(DriverRefusalTest, ABallThatMemoryCannotHoldIsRefusedBeforeItIsBuilt) {
   const Words words{"run",   "large-ball",        "--steps", "1", "--set", "ball.per_ring=3000000",
                     "--set", "ball.rounding=none"};
   memory_ = rlim_t{1} << 30;
-  ASSERT_EQ(run(words), 2) << err();
-  EXPECT_NE(err().find("--set: ball.per_ring = 3000000: allowed is a ball of at most "),
-            std::string::npos)
-      << err();
+  const Words ball(words.begin() + 4, words.end());
+  std::vector<Words> all{words};
+  for (const Words& start : std::vector<Words>{{"run", "large-ball", "--error", "1"},
+                                               {"accuracy", "large-ball"},
+                                               {"advise", "large-ball", "--error", "1"},
+                                               {"reference", "large-ball"}}) {
+    all.push_back(start);
+    all.back().insert(all.back().end(), ball.begin(), ball.end());
+  }
+  for (const Words& each : all) {
+    ASSERT_EQ(run(each), 2) << each[0] << err();
+    EXPECT_NE(err().find("--set: ball.per_ring = 3000000: allowed is a ball of at most "),
+              std::string::npos)
+        << each[0] << err();
+  }
   EXPECT_TRUE(names().empty());
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/run_loop.hpp"
+#include "driver/shell_word.hpp"
 #include "driver/trouble_text.hpp"
 #include "verify/stability_limit.hpp"
 #include "verify/tests/paper_scenes.hpp"
@@ -197,6 +198,14 @@ TEST_F(TroubleTest, ARefusedStartHasNoGoodState) {
       << trouble_text(record_);
   EXPECT_NE(how_to_go_on(record_, "r").find("no good state"), std::string::npos);
   EXPECT_TRUE(trouble_json(record_)["last_good"].is_null());
+}
+
+TEST(ShellWord, IsReadBackAsItWas) {
+  EXPECT_EQ(shell_word("runs/example-2"), "runs/example-2");
+  EXPECT_EQ(shell_word("my ball.toml"), "'my ball.toml'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word("wall[0].alpha=1"), "'wall[0].alpha=1'");
+  EXPECT_EQ(shell_word(""), "''");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -97,6 +98,8 @@ class ProgramTest : public testing::Test {
       execv(BOUNCE_PROGRAM, arguments.data());
       _exit(99);
     }
+    // kill(-1) would end all that this user runs.
+    if (child < 0) throw std::runtime_error("no process could be started");
     return child;
   }
   // The exit code; 1000 + signal if it was killed, by us if it takes ten minutes.

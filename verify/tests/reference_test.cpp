@@ -318,6 +318,18 @@ std::vector<double> times_to(double end) {
   return times;
 }
 
+TEST(ReferencePairTest, AGrowthThatIsNoNumberStaysOne) {
+  State ball(1), lost(1);
+  ball.x[0] = lost.x[0] = 1.0;
+  lost.y[0] = std::nan("");
+  DisturbedPair paths;
+  paths.pair.times = {0.0, 1.0, 2.0};
+  paths.pair.adaptive.states = {ball, ball, ball};
+  paths.pair.fixed = paths.pair.adaptive;
+  paths.disturbed.states = {ball, lost, ball};
+  EXPECT_TRUE(std::isnan(growth_of(paths).greatest));
+}
+
 TEST(ReferencePairTest, RoundingsAreThoseOfTheLargestCoordinate) {
   Problem problem = soft_landing();
   const double size = rounding_disturbance(problem);

@@ -186,6 +186,12 @@ class Contact(unittest.TestCase):
         for name in ("a/accuracy.csv", "b/accuracy.csv", "a.png", "b.svg"):
             self.assertTrue((self.folder / "out" / "accuracy" / name).is_file(), name)
 
+    def test_a_torn_row_is_named(self):
+        self.study("accuracy-a", [*self.rows(), ["leapfrog", "resolved"]])
+        done = self.run_script("accuracy.py", "a")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("a row without precision", done.stderr)
+
     def test_one_table_of_contacts_is_of_one_commit(self):
         self.study("contact-a", self.rows(), commit="first")
         self.study("contact-b", self.rows(), commit="second")
