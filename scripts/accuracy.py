@@ -66,7 +66,7 @@ def put(scene, study, source, folder):
     place.mkdir()
     for name in ("accuracy.csv", "table.txt", "origin.json", "scene.toml"):
         shutil.copy(source / name, place / name)
-    figure = accuracy.figure_of(study, f"{scene}: error against cost (grey: not known to the reference)")
+    figure = accuracy.figure_of(study, f"{scene}: error against cost (grey: not known; balls that blew up are left out)")
     for kind in ("png", "svg"):
         figure.savefig(folder / f"{scene}.{kind}", metadata={"Date": None} if kind == "svg" else None)
     plt.close(figure)

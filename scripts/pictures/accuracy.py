@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import statistics
 from dataclasses import dataclass
 
 from pictures import drawing
@@ -43,6 +44,12 @@ class Study:
             found.setdefault((row["method"], row["contact"], row["precision"]), []).append(row)
         return found
 
+    def most_energy(self):
+        """Errors of energy beyond it, erg, are those of balls that have blown up: the rest would be squeezed into
+        a corner beside them."""
+        known = [row["error_energy"] for row in self.rows if math.isfinite(row["error_energy"])]
+        return 1e4 * statistics.median(known) if known else math.inf
+
     def papers(self):
         """The paper's program: listing, its contact, 1e-6 s; None without it."""
         return next((row for row in self.rows if row["method"] == row["contact"] == "listing"
@@ -79,10 +86,11 @@ def label_of(method, contact, precision):
 
 
 def draw_panel(axes, study, cost, name, colours):
-    key = f"error_{name}"
+    key, most = f"error_{name}", study.most_energy()
     for (method, contact, precision), all_rows in study.lines().items():
         # Beyond the edge of stability, or where the error is 0, there is nothing to show.
-        rows = sorted((r for r in all_rows if math.isfinite(r[key]) and r[key] > 0), key=lambda r: r[cost])
+        rows = sorted((r for r in all_rows if math.isfinite(r[key]) and r[key] > 0 and r["error_energy"] <= most),
+                      key=lambda r: r[cost])
         label = label_of(method, contact, precision)
         if not any(r["error_height"] < math.inf for r in all_rows):
             label += " (not finished)"
@@ -128,9 +136,11 @@ def figure_of(study, title):
     """A row of panels over run time, one over evaluations."""
     methods = list(dict.fromkeys(row["method"] for row in study.rows))
     colours = {method: COLOURS[i % len(COLOURS)] for i, method in enumerate(methods)}
-    # The last row is the legend's.
-    figure, panels = plt.subplots(len(PANELS) + 1, 2, figsize=(10.0, 2.6 * len(PANELS) + 1.6), layout="constrained",
-                                  sharey="row", gridspec_kw={"height_ratios": [2.6] * len(PANELS) + [1.6]})
+    # The last row is the legend's, of three columns.
+    legend_height = 0.4 + 0.18 * math.ceil((len(study.lines()) + 1) / 3)
+    figure, panels = plt.subplots(len(PANELS) + 1, 2, figsize=(10.0, 2.6 * len(PANELS) + legend_height),
+                                  layout="constrained", sharey="row",
+                                  gridspec_kw={"height_ratios": [2.6] * len(PANELS) + [legend_height]})
     *panels, below = panels
     for row, (name, label) in zip(panels, PANELS.items()):
         for axes, cost in zip(row, ("seconds", "evaluations")):

@@ -175,6 +175,16 @@ class Contact(unittest.TestCase):
         self.assertIn("listing, listing", labels)
         self.assertIn("gsl-bsimp, located (not finished)", labels)
 
+    def test_a_ball_that_blew_up_is_not_drawn(self):
+        from pictures import accuracy
+
+        blown = self.row("pefrl", "resolved", 1e-3, 1e6)
+        blown[self.HEAD.index("error_energy")] = "1e20"
+        self.study("accuracy-a", [*self.rows(), blown])
+        panel = accuracy.figure_of(accuracy.read_study(self.folder / "runs" / "accuracy-a"), "a").axes[0]
+        drawn = {line.get_label(): len(line.get_xdata()) for line in panel.lines}
+        self.assertEqual((drawn["pefrl, resolved"], drawn["leapfrog, resolved"]), (0, 1))
+
     def test_a_scene_comes_to_those_that_are_there(self):
         self.study("accuracy-b", self.rows(), commit="first")
         self.assertEqual(self.run_script("accuracy.py", "b").returncode, 0)
