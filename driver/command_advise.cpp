@@ -73,8 +73,8 @@ void add_advise_command(CLI::App& program, CommandContext& context) {
   command->add_option("--threads", options->request.threads,
                       "For the search, 1 to 256; 0: one a core [0]");
   command->footer(
-      "It runs the scene some hundred times with large steps, and compares with a fine run; some\n"
-      "ten seconds for the paper's examples.\n"
+      "It runs the scene some hundred times with large steps, and compares with a fine run: 15\n"
+      "to 30 seconds for the paper's examples.\n"
       "Examples:\n"
       "  bounce advise example-1 --error 1e-3\n"
       "  bounce advise example-2 --error 1e-2 --observable energy_lost\n"
