@@ -126,6 +126,7 @@ void reference(const Options& options, const std::string& command_line) {
   const std::vector<std::int64_t> steps = output_steps(scene, options.every);
   check_path_memory(problem.initial.size(), static_cast<double>(steps.size()));
   std::vector<double> times;
+  times.reserve(steps.size());
   for (const std::int64_t step : steps) {
     times.push_back(static_cast<double>(step) * scene.time.step);
   }
