@@ -1,4 +1,4 @@
-# Sourced by accuracy.sh and contact.sh, at the repository's root: `read_options "$0" HELP_LINES "$@"` sets out,
+# Sourced by accuracy.sh, contact.sh and reference.sh, at the repository's root: `read_options "$0" HELP_LINES "$@"` sets out,
 # dirty, scenes (if --scenes is given) and rest (what stands after --), or ends the script; the tree must be clean.
 read_options() {
   local script=$1 help_lines=$2 name

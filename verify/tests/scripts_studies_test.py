@@ -215,13 +215,35 @@ class Contact(unittest.TestCase):
         self.assertIn("commit abc: allowed is that of the studies, first", done.stderr)
 
     def test_scripts_refuse_unknown_options(self):
-        for name in ("contact.sh", "accuracy.sh"):
+        for name in ("contact.sh", "accuracy.sh", "reference.sh"):
             done = subprocess.run([SCRIPTS / name, "--no-such"], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{name}: unknown option --no-such", done.stderr)
             done = subprocess.run([SCRIPTS / name, "--help"], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0)
             self.assertIn(f"scripts/{name} [--out DIR]", done.stdout)
+
+
+class Reference(unittest.TestCase):
+    """reference.py, on a reference of bounce itself."""
+
+    def run_script(self, folder, *words):
+        return subprocess.run([SCRIPTS / "reference.py", "--runs", folder, "--out", Path(folder) / "out", *words],
+                              capture_output=True, text=True, check=False)
+
+    def test_scenes_are_kept_and_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([os.environ["BOUNCE_PROGRAM"], "reference", "example-1", "--t-end", "0.02", "--out",
+                            f"{folder}/reference-a"], capture_output=True, check=True)
+            done = self.run_script(folder, "--allow-dirty", "a")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            text = (Path(folder) / "out" / "reference.md").read_text()
+            self.assertRegex(text, r"\n\| a \| 9\.99\d* ± \d")
+            self.assertTrue((Path(folder) / "out" / "reference" / "a" / "final.csv").is_file())
+            done = self.run_script(folder, "--allow-dirty", "b")
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("reference-b/observables.json: cannot be read", done.stderr)
+            self.assertEqual((Path(folder) / "out" / "reference.md").read_text(), text)  # as it was
 
 
 class Advice(unittest.TestCase):

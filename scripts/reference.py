@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""Keeps the reference solutions that scripts/reference.sh has put into runs/, and makes their table.
+
+Writes OUT/reference/SCENE (observables.json, before-impact.csv, final.csv, scene.toml) and OUT/reference.md (for
+README), of all scenes that are there. From clean commits only, unless --allow-dirty.
+"""
+
+import json
+import os
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+from pictures import studies
+from pictures.run import RunError
+
+FILES = ("observables.json", "before-impact.csv", "final.csv", "scene.toml")
+SHOWN = ("end_height", "end_speed", "rebound_height", "energy_lost", "greatest_flattening")
+
+
+def read(folder):
+    path = folder / "observables.json"
+    try:
+        found = json.loads(path.read_text())
+        for name in ("observables", "growth", "origin", "end_position_error"):
+            found[name]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RunError(f"{path}: cannot be read: {error}") from error
+    return found
+
+
+def cell(quantity):
+    if quantity["value"] is None:
+        return "-"
+    return f"{quantity['value']:.10g} ± {quantity['error']:.0e}"
+
+
+def row_of(scene, found):
+    growth = found["growth"]
+    factor = growth["factor"]
+    return [scene, *(cell(found["observables"][name]) for name in SHOWN), f"{found['end_position_error']:.0e}",
+            "-" if factor is None else f"{factor:.1e}", found["origin"]["commit"]]
+
+
+def markdown(all_found):
+    head = ["scene", "height, cm", "speed, cm/s", "rebound, cm", "energy lost, erg", "flattening",
+            "places at the end, cm", "growth", "at commit"]
+    lines = [head, ["---"] * len(head), *(row_of(scene, found) for scene, found in all_found.items())]
+    return "\n".join([
+        "# Reference solutions\n",
+        "The centre's height and speed at the end, greatest height after the lowest, energy lost, greatest flattening, "
+        "each ± what the two solutions differ by; the largest difference of a particle's place at the end; by how much "
+        "a start disturbed by 1e-10 of the shortest bond is farther off at the end. Where that is large, two courses "
+        "may agree by chance, and the error bars of `bounce accuracy`, of three courses, are the better ones.\n",
+        "".join("| " + " | ".join(line) + " |\n" for line in lines),
+        "Made by `scripts/reference.sh`; all observables, the ball before the impact and at the end, origin: "
+        "`results/reference/`.",
+        "",
+    ])
+
+
+def make(arguments, folder):
+    if (arguments.out / "reference").is_dir():
+        shutil.copytree(arguments.out / "reference", folder / "reference")
+    for scene in arguments.scenes:
+        source, place = arguments.runs / f"reference-{scene}", folder / "reference" / scene
+        commit = read(source)["origin"]["commit"]
+        if not arguments.allow_dirty and ("dirty" in commit or commit == "unknown"):
+            raise RunError(f"{source}: commit {commit}: allowed is a clean commit")
+        place.mkdir(parents=True, exist_ok=True)
+        for name in FILES:
+            shutil.copy(source / name, place / name)
+    kept = {place.name: read(place) for place in sorted((folder / "reference").iterdir())}
+    (folder / "reference.md").write_text(markdown(kept), encoding="utf-8")
+
+
+def main():
+    arguments = studies.read_arguments(__doc__.splitlines()[0], "reference")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
+    try:
+        make(arguments, partial)
+        shutil.rmtree(arguments.out / "reference", ignore_errors=True)
+        for name in ("reference", "reference.md"):
+            os.replace(partial / name, arguments.out / name)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+    print(f"reference.py: {arguments.out}/reference.md and {arguments.out}/reference")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except RunError as error:
+        print(f"reference.py: {error}", file=sys.stderr)
+        sys.exit(2)
