@@ -140,14 +140,15 @@ void add_line(const Setting& kind, const StudyRequest& request, Study& study) {
 // looks.
 void add_papers(Study& study) {
   if (study.scene.walls.empty()) return;
-  if (!whole_part(papers_step, study.sampling)) {
+  const auto steps = whole_part(papers_step, study.sampling);
+  if (!steps) {
     study.left_out.push_back(
         fmt::format("the paper's program: its step of {} s is no whole part of {} s, the time "
                     "between two looks",
                     papers_step, study.sampling.every));
     return;
   }
-  study.papers = {"listing", Contact::listing, *whole_part(papers_step, study.sampling)};
+  study.papers = {"listing", Contact::listing, *steps};
   auto& all = study.settings;
   if (std::find(all.begin(), all.end(), *study.papers) == all.end()) {
     all.insert(all.begin(), *study.papers);

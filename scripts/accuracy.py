@@ -7,11 +7,8 @@ studies of clean commits only, unless --allow-dirty.
 """
 
 import math
-import os
 import shutil
 import sys
-import tempfile
-from pathlib import Path
 
 try:
     from pictures import accuracy, studies
@@ -87,15 +84,7 @@ def make(arguments, folder):
 
 def main():
     arguments = studies.read_arguments(__doc__.splitlines()[0], "accuracy")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
-    try:
-        make(arguments, partial)
-        shutil.rmtree(arguments.out / "accuracy", ignore_errors=True)
-        for name in ("accuracy", "accuracy.md"):
-            os.replace(partial / name, arguments.out / name)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
+    studies.publish(arguments.out, ("accuracy", "accuracy.md"), lambda folder: make(arguments, folder))
     print(f"accuracy.py: {arguments.out}/accuracy.md and {arguments.out}/accuracy")
 
 

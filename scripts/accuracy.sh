@@ -11,9 +11,7 @@ source scripts/studies.sh
 scenes="example-1 example-2 example-3 example-4 example-5 example-6 example-7"
 read_options "$invoked" 2,5 "$@"
 
-scripts/install.sh
-scripts/build.sh release bounce
-mkdir -p runs
+build_bounce
 for scene in $scenes; do study accuracy "$scene" "${rest[@]}"; done
 # shellcheck disable=SC2086 # names
 scripts/accuracy.py --runs runs --out "$out" "${dirty[@]}" $scenes

@@ -8,10 +8,7 @@ makes them); writes OUT/contact.md, contact.csv, contact.png. From studies of on
 import csv
 import json
 import math
-import os
 import sys
-import tempfile
-from pathlib import Path
 
 try:
     from pictures import accuracy, studies
@@ -210,11 +207,8 @@ def make(arguments, folder):
 
 def main():
     arguments = studies.read_arguments(__doc__.splitlines()[0], "contact")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".partial-", dir=arguments.out) as partial:
-        make(arguments, Path(partial))
-        for name in ("contact.csv", "contact.png", "contact.md"):
-            os.replace(Path(partial) / name, arguments.out / name)
+    studies.publish(arguments.out, ("contact.csv", "contact.png", "contact.md"),
+                    lambda folder: make(arguments, folder))
     print(f"contact.py: {arguments.out}/contact.md")
 
 

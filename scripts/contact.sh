@@ -10,9 +10,7 @@ source scripts/studies.sh
 scenes="example-1 example-2 example-4 example-5 example-6"
 read_options "$invoked" 2,4 "$@"
 
-scripts/install.sh
-scripts/build.sh release bounce
-mkdir -p runs
+build_bounce
 for scene in $scenes; do
   # From 0.9 of the stable step: 1.4e-3 s at E = 1000, 3.4e-4 s at 16000.
   decades=3

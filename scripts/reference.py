@@ -6,11 +6,8 @@ README), of all scenes that are there. From clean commits only, unless --allow-d
 """
 
 import json
-import os
 import shutil
 import sys
-import tempfile
-from pathlib import Path
 
 from pictures import studies
 from pictures.run import RunError
@@ -31,7 +28,7 @@ def read(folder):
 
 
 def cell(quantity):
-    if quantity["value"] is None:
+    if quantity["value"] is None or quantity["error"] is None:
         return "-"
     return f"{quantity['value']:.10g} ± {quantity['error']:.0e}"
 
@@ -65,9 +62,9 @@ def make(arguments, folder):
         shutil.copytree(arguments.out / "reference", folder / "reference")
     for scene in arguments.scenes:
         source, place = arguments.runs / f"reference-{scene}", folder / "reference" / scene
-        commit = read(source)["origin"]["commit"]
-        if not arguments.allow_dirty and ("dirty" in commit or commit == "unknown"):
-            raise RunError(f"{source}: commit {commit}: allowed is a clean commit")
+        found = read(source)
+        if not arguments.allow_dirty:
+            studies.check_clean(source, found["origin"]["commit"])
         place.mkdir(parents=True, exist_ok=True)
         for name in FILES:
             shutil.copy(source / name, place / name)
@@ -77,15 +74,7 @@ def make(arguments, folder):
 
 def main():
     arguments = studies.read_arguments(__doc__.splitlines()[0], "reference")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
-    try:
-        make(arguments, partial)
-        shutil.rmtree(arguments.out / "reference", ignore_errors=True)
-        for name in ("reference", "reference.md"):
-            os.replace(partial / name, arguments.out / name)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
+    studies.publish(arguments.out, ("reference", "reference.md"), lambda folder: make(arguments, folder))
     print(f"reference.py: {arguments.out}/reference.md and {arguments.out}/reference")
 
 

@@ -23,6 +23,13 @@ read_options() {
   fi
 }
 
+# What all of them begin with, once their options are good.
+build_bounce() {
+  scripts/install.sh
+  scripts/build.sh release bounce
+  mkdir -p runs
+}
+
 # study NAME SCENE OPTIONS OF bounce accuracy: runs/NAME-SCENE, and how long it took.
 study() {
   local name=$1 scene=$2 start=$SECONDS

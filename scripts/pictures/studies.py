@@ -1,6 +1,9 @@
 """The studies of several scenes, as scripts/accuracy.sh and contact.sh put them into runs/."""
 
 import argparse
+import os
+import shutil
+import tempfile
 from pathlib import Path
 
 from pictures import accuracy
@@ -21,8 +24,7 @@ def read_arguments(description, name):
     return parser.parse_args()
 
 
-def check_clean(folder, study):
-    commit = study.origin["commit"]
+def check_clean(folder, commit):
     if "dirty" in commit or commit == "unknown":
         raise RunError(f"{folder}: commit {commit}: allowed is a clean commit")
 
@@ -34,8 +36,22 @@ def read_studies(arguments, name):
         folder = arguments.runs / f"{name}-{scene}"
         found[scene] = accuracy.read_study(folder)
         if not arguments.allow_dirty:
-            check_clean(folder, found[scene])
+            check_clean(folder, found[scene].origin["commit"])
     return found
+
+
+def publish(out, names, make):
+    """`make(folder)` puts the files and folders of these names into a new folder; then they replace those in `out`."""
+    out.mkdir(parents=True, exist_ok=True)
+    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=out))
+    try:
+        make(partial)
+        for name in names:
+            if (out / name).is_dir():
+                shutil.rmtree(out / name)
+            os.replace(partial / name, out / name)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
 
 
 def one_commit(all_studies):

@@ -227,6 +227,13 @@ class Contact(unittest.TestCase):
 class Reference(unittest.TestCase):
     """reference.py, on a reference of bounce itself."""
 
+    def test_what_is_not_known_is_not_told(self):
+        from reference import cell
+
+        self.assertEqual(cell({"value": 1.5, "error": 1e-9}), "1.5 ± 1e-09")
+        for value, error in ((None, None), (1.5, None)):
+            self.assertEqual(cell({"value": value, "error": error}), "-")
+
     def run_script(self, folder, *words):
         return subprocess.run([SCRIPTS / "reference.py", "--runs", folder, "--out", Path(folder) / "out", *words],
                               capture_output=True, text=True, check=False)
@@ -243,6 +250,13 @@ class Reference(unittest.TestCase):
             done = self.run_script(folder, "--allow-dirty", "b")
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn("reference-b/observables.json: cannot be read", done.stderr)
+            path = Path(folder) / "reference-a" / "observables.json"
+            found = json.loads(path.read_text())
+            found["origin"]["commit"] = "abc-dirty"
+            path.write_text(json.dumps(found))
+            done = self.run_script(folder, "a")
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("commit abc-dirty: allowed is a clean commit", done.stderr)
             self.assertEqual((Path(folder) / "out" / "reference.md").read_text(), text)  # as it was
 
 
