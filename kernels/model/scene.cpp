@@ -135,14 +135,14 @@ void validate_output(const OutputSpec& output, const TimeSpec& time) {
   }
   if (output.frames_every) {
     need("output.frames_every", *output.frames_every, time.step, largest,
-         "at least one step, " + print(time.step) + " s");
+         "at least one step, time.step = " + print(time.step) + " s");
   }
   for (std::size_t i = 0; i < output.frames_at.size(); ++i) {
     need(indexed("output.frames_at", i), output.frames_at[i], 0.0, time.end * (1.0 + 1e-9),
          "0 to time.end = " + print(time.end));
   }
   need("output.monitor_every", output.monitor_every, time.step, largest,
-       "at least one step, " + print(time.step) + " s");
+       "at least one step, time.step = " + print(time.step) + " s");
 }
 
 }  // namespace
