@@ -1,5 +1,4 @@
-// Throughput of the kernels, in double precision where no other is named: most rows on Example 2,
-// some on others of the paper's.
+// Throughput of the kernels: most rows on Example 2, some on others of the paper's.
 //
 // Each repetition of a row takes turns: a batch of the oracle (-O3 -march=native), a batch of the
 // row, a batch of the oracle with -Ofast. Ratios are made turn by turn, so a clock that swings does
@@ -12,7 +11,6 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -27,10 +25,7 @@
 #include "bench/timing.hpp"
 #include "driver/origin.hpp"
 #include "driver/scene_file.hpp"
-#include "kernels/stepping/ensemble.hpp"
 #include "kernels/stepping/plan.hpp"
-#include "kernels/stepping/ring_forms.hpp"
-#include "kernels/stepping/ring_shape.hpp"
 #include "verify/oracle.hpp"
 
 namespace bounce {
@@ -50,40 +45,18 @@ constexpr std::int64_t checked_steps = 1000;
 // Two runs that round each position to half an ULP of 16 cm may part by one (3.6e-15 cm) a step.
 constexpr double allowed_difference = checked_steps * 3.6e-15;  // cm
 
-// Single precision rounds R0 by half an ULP, 2^-24 of itself: the ball of 7 cm swings about a size
-// off by that part, so by at most twice that; the law's own roundings as much again.
-constexpr double allowed_in_single = 4.0 * 7.0 * 0x1p-24;  // cm
-
 struct Case {
   std::string name;
   Scene scene;
   Problem problem;
-  [[nodiscard]] double allowed() const {
-    return problem.precision == Precision::single_precision ? allowed_in_single
-                                                            : allowed_difference;
-  }
 };
 
-const char* name_of(Precision precision) {
-  switch (precision) {
-    case Precision::compensated:
-      return "compensated";
-    case Precision::single_precision:
-      return "single";
-    case Precision::double_precision:
-      break;
-  }
-  return "double";
-}
-
-const Case& case_of(const std::string& name, Precision precision = Precision::double_precision) {
-  static std::map<std::pair<std::string, Precision>, Case> cases;
-  auto found = cases.find({name, precision});
+const Case& case_of(const std::string& name) {
+  static std::map<std::string, Case> cases;
+  auto found = cases.find(name);
   if (found == cases.end()) {
-    Scene scene = SceneFile::find(name).scene();
-    scene.time.precision = precision;
-    const Case made{name, scene, make_problem(scene)};
-    found = cases.emplace(std::pair(name, precision), made).first;
+    const Scene scene = SceneFile::find(name).scene();
+    found = cases.emplace(name, Case{name, scene, make_problem(scene)}).first;
   }
   return found->second;
 }
@@ -114,8 +87,6 @@ class Subject {
   [[nodiscard]] virtual std::optional<Counted> counted() const { return std::nullopt; }
   /// Threads that meet once a stage.
   [[nodiscard]] virtual int team() const { return 1; }
-  /// Of a turn, where fewer are not what a user takes.
-  [[nodiscard]] virtual std::int64_t least_steps() const { return 1; }
 };
 
 class OracleSubject final : public Subject {
@@ -179,35 +150,6 @@ class ManySubject final : public Subject {
   int threads_;
 };
 
-// Independent balls, one a lane.
-class EnsembleSubject final : public Subject {
- public:
-  EnsembleSubject(const Case& of, const std::string& vector, int balls, int threads)
-      : ensemble_(std::vector<Problem>(static_cast<std::size_t>(balls), of.problem),
-                  request_of("ring", vector, threads)) {
-    const std::optional<RingShape> shape = find_rings(of.problem.bonds);
-    const double a_batch = ring_multiplications(of.problem, shape->rings, shape->per_ring);
-    const VectorTarget target = make_plan(of.problem, request_of("ring", vector, 1)).vector;
-    if (threads == 1) counted_ = {a_batch / ensemble_.lanes(), target};
-  }
-  void advance(std::int64_t steps) override { ensemble_.advance(steps); }
-  [[nodiscard]] std::vector<State> states() const override {
-    std::vector<State> all;
-    for (std::size_t i = 0; i < ensemble_.size(); ++i) all.push_back(ensemble_.state(i));
-    return all;
-  }
-  [[nodiscard]] std::int64_t balls() const override {
-    return static_cast<std::int64_t>(ensemble_.size());
-  }
-  [[nodiscard]] std::optional<Counted> counted() const override { return counted_; }
-  // A scene goes into its lane once a turn, and is looked at as often as a sweep looks.
-  [[nodiscard]] std::int64_t least_steps() const override { return Ensemble::check_every; }
-
- private:
-  Ensemble ensemble_;
-  std::optional<Counted> counted_;
-};
-
 using MakeSubject = std::function<std::unique_ptr<Subject>()>;
 
 double difference_from_oracle(const Case& of, const MakeSubject& make) {
@@ -236,13 +178,13 @@ double port_limit(const Subject& subject) {
 
 void run_row(benchmark::State& state, const Case& of, const MakeSubject& make) {
   const double difference = difference_from_oracle(of, make);
-  if (!(difference <= of.allowed())) {
+  if (!(difference <= allowed_difference)) {
     state.SkipWithError("its state after 1000 steps is not the oracle's");
     return;
   }
   OracleSubject oracle(of, &native::run_listing), fast_math(of, &fast_math::run_listing);
   const auto subject = make();
-  const std::int64_t batch = std::max(batch_for(*subject, 2.5e-3), subject->least_steps());
+  const std::int64_t batch = batch_for(*subject, 2.5e-3);
   std::vector<double> times, ratios, ratios_fast_math, parts, hand_shakes;
   for (auto turn : state) {
     (void)turn;
@@ -282,11 +224,9 @@ std::string with_threads(const std::string& name, int threads) {
 }
 
 void add_kernel(const std::string& kernel, const std::string& vector, int threads,
-                const std::string& scene = "example-2",
-                Precision precision = Precision::double_precision) {
-  const Case& of = case_of(scene, precision);
-  std::string where = scene == "example-2" ? "" : ", " + scene;
-  if (precision != Precision::double_precision) where += std::string(", ") + name_of(precision);
+                const std::string& scene = "example-2") {
+  const Case& of = case_of(scene);
+  const std::string where = scene == "example-2" ? "" : ", " + scene;
   const PlanRequest request = request_of(kernel, vector, threads);
   add_row(with_threads(kernel + " " + vector + where, threads), of,
           [&of, request] { return std::make_unique<KernelSubject>(of, request); });
@@ -304,14 +244,8 @@ void add_vector_rows(const std::string& vector) {
     add_row(with_threads("64 balls ring " + vector, threads), of, [&of, vector, threads] {
       return std::make_unique<ManySubject>(of, vector, 64, threads);
     });
-    add_row(with_threads("64 balls ensemble " + vector, threads), of, [&of, vector, threads] {
-      return std::make_unique<EnsembleSubject>(of, vector, 64, threads);
-    });
   }
   add_kernel("ring", vector, 1, "example-5");  // sideways: no symmetry
-  for (const Precision precision : {Precision::compensated, Precision::single_precision}) {
-    add_kernel("ring", vector, 1, "example-2", precision);
-  }
 }
 
 void add_rows() {

@@ -38,11 +38,6 @@ void check_names(const StudyRequest& request) {
     if (contact_of(word)) continue;
     throw InputError(fmt::format("--contacts {}: unknown; allowed is {}", word, contact_words()));
   }
-  for (const std::string& word : request.precisions) {
-    if (precision_of(word)) continue;
-    throw InputError(
-        fmt::format("--precisions {}: unknown; allowed is {}", word, precision_words()));
-  }
 }
 
 void check_numbers(const StudyRequest& request, const Scene& scene) {
@@ -82,33 +77,21 @@ std::int64_t steps_a_sample(double step, const Sampling& sampling) {
       step, sampling.every, sampling.every / most_steps));
 }
 
-// The paper's rule beside its own scheme and the simplest other one; and in single precision, which
-// has no other. Located contact is of double precision, and not for every motion.
-std::vector<Contact> contacts_of(const Scene& scene, const Method& method, Precision precision) {
+// The paper's rule beside its own scheme and the simplest other one; located contact where it does
+// not take too long.
+std::vector<Contact> contacts_of(const Scene& scene, const Method& method) {
   if (scene.walls.empty()) return {Contact::resolved};
-  if (precision == Precision::single_precision) return {Contact::listing};
-  if (precision == Precision::compensated) return {Contact::resolved};
   std::vector<Contact> contacts{Contact::resolved};
   if (method.evaluations == 1) contacts.insert(contacts.begin(), Contact::listing);
   if (worth_locating(scene)) contacts.push_back(Contact::located);
   return contacts;
 }
 
-std::vector<Precision> precisions_of(const StudyRequest& request, const std::string& method) {
-  if (request.precisions.empty()) return precisions_by_default(method);
-  std::vector<Precision> found;
-  for (const std::string& word : request.precisions) found.push_back(*precision_of(word));
-  return found;
-}
-
 // A method of many evaluations, and of an order that needs no small steps, meets the roundings a
-// decade before the others where contacts are located. The other precisions that nobody asked for
-// are run to see their rounding. There its sweep may end, which else takes half of the study's
-// time.
-double decades_of(const Setting& kind, const StudyRequest& request, double decades) {
-  const bool rounded = request.precisions.empty() && kind.precision != Precision::double_precision;
-  const bool early =
-      (rounded || kind.contact == Contact::located) && find_method(kind.method)->evaluations > 1;
+// decade before the others where contacts are located. There its sweep may end, which else takes
+// half of the study's time.
+double decades_of(const Setting& kind, double decades) {
+  const bool early = kind.contact == Contact::located && find_method(kind.method)->evaluations > 1;
   return early ? std::max(decades - 1.0, 0.5 * decades) : decades;
 }
 
@@ -116,14 +99,14 @@ double decades_of(const Setting& kind, const StudyRequest& request, double decad
 void add_line(const Setting& kind, const StudyRequest& request, Study& study) {
   if (const std::string why = plan_refusal(study.scene, study.initial, kind, study.sampling);
       !why.empty()) {
-    study.left_out.push_back(fmt::format("{}, {}: {}", kind.method, word_of(kind.precision), why));
+    study.left_out.push_back(fmt::format("{}, {}: {}", kind.method, word_of(kind.contact), why));
     return;
   }
   StepSweep sweep = request.sweep;
   if (request.quick) sweep.decades = std::min(sweep.decades, 1.5);
   if (request.quick) sweep.per_decade = std::min(sweep.per_decade, 2);
   if (!request.quick) sweep.first_finer = first_finer;
-  sweep.decades = decades_of(kind, request, sweep.decades);
+  sweep.decades = decades_of(kind, sweep.decades);
   auto line = settings_of(study.scene, study.initial, kind, study.sampling, sweep);
   for (const double step : request.steps) {
     Setting setting = kind;
@@ -166,14 +149,6 @@ bool StudyRequest::wants(Contact contact) const {
          std::find(contacts.begin(), contacts.end(), word_of(contact)) != contacts.end();
 }
 
-std::vector<Precision> precisions_by_default(const std::string& method) {
-  const auto all = bounce::methods();
-  const auto highest = std::max_element(
-      all.begin(), all.end(), [](const Method& a, const Method& b) { return a.order < b.order; });
-  if (method != "leapfrog" && method != highest->name) return {Precision::double_precision};
-  return {Precision::double_precision, Precision::compensated, Precision::single_precision};
-}
-
 Study make_study(const StudyRequest& request) {
   SceneFile file = SceneFile::find(request.scene);
   for (const std::string& setting : request.settings) file.set(setting);
@@ -192,11 +167,8 @@ Study make_study(const StudyRequest& request) {
     if (!request.wants(method.name)) continue;
     const std::string name(method.name);
     const std::size_t before = study.settings.size() + study.left_out.size();
-    for (const Precision precision : precisions_of(request, name)) {
-      for (const Contact contact : contacts_of(study.scene, method, precision)) {
-        if (!request.wants(contact)) continue;
-        add_line({name, contact, 1, precision}, request, study);
-      }
+    for (const Contact contact : contacts_of(study.scene, method)) {
+      if (request.wants(contact)) add_line({name, contact, 1}, request, study);
     }
     if (study.settings.size() + study.left_out.size() == before) {
       study.left_out.push_back(fmt::format("{}: it has none of the contacts asked for", name));

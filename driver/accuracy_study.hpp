@@ -14,13 +14,12 @@ namespace bounce {
 /// What a user asks for.
 struct StudyRequest {
   std::string scene;
-  std::vector<std::string> settings;    ///< key=value
-  std::string initial;                  ///< file of the initial state, or ""
-  std::vector<std::string> methods;     ///< and baselines; none: all
-  std::vector<std::string> contacts;    ///< of those that a method has; none: all
-  std::vector<std::string> precisions;  ///< for all methods; none: see precisions_by_default
-  std::vector<double> steps;            ///< s, besides those of the sweep
-  double every = 0.01;                  ///< s
+  std::vector<std::string> settings;  ///< key=value
+  std::string initial;                ///< file of the initial state, or ""
+  std::vector<std::string> methods;   ///< and baselines; none: all
+  std::vector<std::string> contacts;  ///< of those that a method has; none: all
+  std::vector<double> steps;          ///< s, besides those of the sweep
+  double every = 0.01;                ///< s
   StepSweep sweep;
   bool quick = false;
 
@@ -37,10 +36,6 @@ struct Study {
   std::vector<Setting> settings;
   std::vector<std::string> left_out;  ///< what cannot be run, and why
 };
-
-/// Double for all; the others for the simplest method and that of the highest order only, as what
-/// they change is rounding, and that is much the same for all.
-std::vector<Precision> precisions_by_default(const std::string& method);
 
 /// Throws InputError, SceneError.
 Study make_study(const StudyRequest& request);

@@ -24,9 +24,8 @@ std::string told(double error, double bar) {
 std::string line_of(const TimedRow& timed, const CourseErrors& bar) {
   const AccuracyRow& row = timed.row;
   std::string line =
-      fmt::format("{:<15} {:<9} {:<11} {:>9} {:>9.3g} {:>9}", row.setting.method, contact_name(row),
-                  word_of(row.setting.precision), parameter_of(row), timed.seconds,
-                  told(row.errors.position, bar.position));
+      fmt::format("{:<15} {:<9} {:>9} {:>9.3g} {:>9}", row.setting.method, contact_name(row),
+                  parameter_of(row), timed.seconds, told(row.errors.position, bar.position));
   for (const ObservableName& each : observable_names) {
     line += fmt::format(" {:>9}",
                         told(row.errors.observables.*each.value, bar.observables.*each.value));
@@ -43,8 +42,8 @@ std::string quoted(std::string_view text) {
 }
 
 std::string head_of_table() {
-  std::string head = fmt::format("{:<15} {:<9} {:<11} {:>9} {:>9} {:>9}", "method", "contact",
-                                 "precision", "dt, s", "run, s", "position");
+  std::string head = fmt::format("{:<15} {:<9} {:>9} {:>9} {:>9}", "method", "contact", "dt, s",
+                                 "run, s", "position");
   for (const ObservableName& each : observable_names) {
     head += fmt::format(" {:>9}", each.name.substr(0, 9));
   }
@@ -56,16 +55,15 @@ std::string papers_text(std::span<const TimedRow> rows, const PapersProgram& pap
   if (!papers.row || papers.seconds == 0.0) return {};
   std::string text = fmt::format(
       "\nThe paper's program (oracle, 1e-6 s) takes {:.3g} s for this; its errors are those of the "
-      "row\nlisting, listing, double, 1e-06.\n",
+      "row\nlisting, listing, 1e-06.\n",
       papers.seconds);
   const auto best = cheapest_as_good(rows, papers, bar);
   if (!best) return text + "No setting here is as good in every observable.\n";
   const TimedRow& row = rows[*best];
   return text + fmt::format(
-                    "The cheapest row here that is no worse in any observable: {}, contact {}, "
-                    "{}, dt\n= {:.3g} s, in {:.3g} s: {:.0f} times sooner.\n",
-                    row.row.setting.method, contact_name(row.row),
-                    word_of(row.row.setting.precision), row.row.step, row.seconds,
+                    "The cheapest row here that is no worse in any observable: {}, contact {},\n"
+                    "dt = {:.3g} s, in {:.3g} s: {:.0f} times sooner.\n",
+                    row.row.setting.method, contact_name(row.row), row.row.step, row.seconds,
                     papers.seconds / row.seconds);
 }
 
@@ -102,12 +100,11 @@ std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
 
 std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& reference,
                          const CourseErrors& bar) {
-  std::string csv =
-      "method,contact,precision,dt,tolerance,steps,evaluations,kernel,seconds,error_position";
+  std::string csv = "method,contact,dt,tolerance,steps,evaluations,kernel,seconds,error_position";
   for (const ObservableName& each : observable_names) csv += fmt::format(",error_{}", each.name);
   csv += ",error_energy,error_energy_free";
   for (const ObservableName& each : observable_names) csv += fmt::format(",{}", each.name);
-  csv += ",note\nreference,,,,,,,,," + fmt::format("{:.4g}", bar.position);
+  csv += ",note\nreference,,,,,,,," + fmt::format("{:.4g}", bar.position);
   for (const ObservableName& each : observable_names) {
     csv += fmt::format(",{:.4g}", bar.observables.*each.value);
   }
@@ -118,10 +115,9 @@ std::string accuracy_csv(std::span<const TimedRow> rows, const CourseRecord& ref
   csv += ",\n";
   for (const TimedRow& timed : rows) {
     const AccuracyRow& row = timed.row;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{:.4g},{:.4g}", row.setting.method,
-                       contact_name(row), word_of(row.setting.precision), row.step,
-                       row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "", row.steps,
-                       row.evaluations, row.kernel, timed.seconds, row.errors.position);
+    csv += fmt::format("{},{},{},{},{},{},{},{:.4g},{:.4g}", row.setting.method, contact_name(row),
+                       row.step, row.tolerance > 0.0 ? fmt::format("{:.0e}", row.tolerance) : "",
+                       row.steps, row.evaluations, row.kernel, timed.seconds, row.errors.position);
     for (const ObservableName& each : observable_names) {
       csv += fmt::format(",{:.4g}", row.errors.observables.*each.value);
     }

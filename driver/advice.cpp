@@ -14,7 +14,6 @@
 #include "driver/interrupt.hpp"
 #include "driver/scene_keys.hpp"
 #include "kernels/stepping/method.hpp"
-#include "kernels/stepping/plan.hpp"
 #include "verify/reference_pair.hpp"
 
 namespace bounce {
@@ -66,21 +65,16 @@ std::string unit_of(const std::string& observable) {
   return "cm";
 }
 
-// What any kernel can run. Without a wall the rule of contact says nothing, and the listing's is
-// the default.
-Contact plain_contact(const AdviceRequest& request) {
-  return request.scene.walls.empty() ? Contact::listing : Contact::resolved;
-}
-
-// The best comes last: the pilot's own courses have it.
+// The best comes last: the pilot's own courses have it. Without a wall the rule of contact says
+// nothing, and the listing's is the default.
 std::vector<Contact> contacts_of(const AdviceRequest& request, const Sampling& sampling) {
-  const Contact plain = plain_contact(request);
+  if (request.scene.walls.empty()) return {Contact::listing};
   const Setting located{"leapfrog", Contact::located, 1};
-  if (request.scene.walls.empty() || request.books || !worth_locating(request.scene) ||
+  if (request.books || !worth_locating(request.scene) ||
       !plan_refusal(request.scene, request.initial, located, sampling).empty()) {
-    return {plain};
+    return {Contact::resolved};
   }
-  return {plain, Contact::located};
+  return {Contact::resolved, Contact::located};
 }
 
 // The two methods of the highest order, the highest first.
@@ -92,28 +86,6 @@ std::vector<std::string> finest_methods() {
   return {std::string(all[0]->name), std::string(all[1]->name)};
 }
 
-// Double, and single where it can be sooner.
-//  - Compensated costs more a step than double. It could only be the cheapest where double's
-//    roundings are more than the error asked; the pilot's reference, in double, knows the course no
-//    better, so such an error is refused before.
-//  - Single has only the listing's contact, whose error falls with the first power of the step:
-//    with a wall its steps would have to be many times smaller, and its kernel is not nearly that
-//    much faster.
-//  - A ball that is its own mirror image takes `mirror`, half the work in double, against twice the
-//    lanes in single, of which low parts take a good part again: it is not sooner.
-std::vector<Precision> precisions_worth_trying(const AdviceRequest& request,
-                                               const Sampling& sampling) {
-  std::vector<Precision> worth{Precision::double_precision};
-  Setting setting{"leapfrog", plain_contact(request), 1};
-  const Problem problem = problem_of(request.scene, request.initial, setting, sampling);
-  setting.precision = Precision::single_precision;
-  if (make_plan(problem, {"auto", "auto", 1}).kernel != "mirror" &&
-      plan_refusal(request.scene, request.initial, setting, sampling).empty()) {
-    worth.push_back(Precision::single_precision);
-  }
-  return worth;
-}
-
 class Pilot {
  public:
   explicit Pilot(const AdviceRequest& request)
@@ -122,7 +94,6 @@ class Pilot {
     const OutputSpec& output = request.scene.output;
     longest_step_ = std::min(output.monitor_every, output.frames_every.value_or(longest_step_));
     contacts_ = contacts_of(request, sampling_);
-    precisions_ = precisions_worth_trying(request, sampling_);
   }
 
   // The pilot's reference at steps this much smaller, and how well it is known. False if
@@ -236,15 +207,12 @@ class Pilot {
     if (which == 0) found.steps_a_sample += found.steps_a_sample / 8 + 1;
     return found;
   }
-  // Every method with every contact and precision that is worth trying.
+  // Every method with every contact that is worth trying.
   [[nodiscard]] std::vector<Setting> kinds() const {
     std::vector<Setting> all;
     for (const Method& method : methods()) {
       for (const Contact contact : contacts_) {
-        for (const Precision precision : precisions_) {
-          if (contact == Contact::located && precision != Precision::double_precision) continue;
-          all.push_back({std::string(method.name), contact, 1, precision});
-        }
+        all.push_back({std::string(method.name), contact, 1});
       }
     }
     return all;
@@ -252,7 +220,6 @@ class Pilot {
   const AdviceRequest& request_;
   Sampling sampling_;
   std::vector<Contact> contacts_;
-  std::vector<Precision> precisions_;
   // s; the run will be looked at, and write a frame, no more often than each step.
   double longest_step_ = std::numeric_limits<double>::infinity();
   CourseRecord reference_;
@@ -299,16 +266,13 @@ std::optional<Advice> advise(const AdviceRequest& request) {
 
 std::string describe(const Advice& advice, const AdviceRequest& request) {
   return fmt::format(
-      "method {}, contact {}{}, time step {:.6g} s\n"
+      "method {}, contact {}, time step {:.6g} s\n"
       "forecast: error of {} {:.1e} {} (asked {:g}; known to {:.0e}), run {:.2g} s on one thread "
       "without output\n"
       "found by {} courses in {:.1f} s",
-      advice.setting.method, word_of(advice.setting.contact),
-      advice.setting.precision == Precision::double_precision
-          ? ""
-          : fmt::format(", precision {}", word_of(advice.setting.precision)),
-      advice.step, request.observable, advice.error, advice.unit, request.error, advice.known_to,
-      advice.seconds, advice.courses, advice.pilot_seconds);
+      advice.setting.method, word_of(advice.setting.contact), advice.step, request.observable,
+      advice.error, advice.unit, request.error, advice.known_to, advice.seconds, advice.courses,
+      advice.pilot_seconds);
 }
 
 std::vector<std::string> settings_of(const Advice& advice, const Scene& scene) {
@@ -316,9 +280,6 @@ std::vector<std::string> settings_of(const Advice& advice, const Scene& scene) {
                                     fmt::format("time.step={}", advice.step)};
   if (!scene.walls.empty()) {
     settings.push_back(fmt::format("wall.contact={}", word_of(advice.setting.contact)));
-  }
-  if (advice.setting.precision != scene.time.precision) {
-    settings.push_back(fmt::format("time.precision={}", word_of(advice.setting.precision)));
   }
   return settings;
 }

@@ -6,9 +6,8 @@
 //     highest order. How well it is known is what they differ by, or what a third one does from a
 //     start some roundings away. Where a small disturbance grows large, in a collapse or a long
 //     contact, that is much.
-//  2. The scene is run by each method, contact resolved and located, in double precision and, where
-//     that can be sooner, single, from the largest stable steps down; the error forecast for a
-//     setting is its measured distance from the pilot's reference.
+//  2. The scene is run by each method, contact resolved and located, from the largest stable steps
+//     down; the error forecast for a setting is its measured distance from the pilot's reference.
 //  3. Run times are measured by turns on the kernel that will run it.
 //  4. Where no setting reaches the error, all steps and those of the pilot are made smaller by a
 //     factor 3; where the pilot's reference is not known well enough, its own first. If it then
@@ -49,8 +48,7 @@ struct Advice {
 /// with the smallest that something does. Nothing if it was interrupted.
 std::optional<Advice> advise(const AdviceRequest& request);
 
-/// The advice and its forecasts, for a person: some lines, without an end of line. The precision is
-/// named where it is not double.
+/// The advice and its forecasts, for a person: some lines, without an end of line.
 std::string describe(const Advice& advice, const AdviceRequest& request);
 
 /// The advice as keys and values of the scene: "time.step=0.001" and so on.

@@ -1,5 +1,4 @@
-// bounce accuracy: error against run time of one scene, by method, contact rule, precision and
-// time step.
+// bounce accuracy: error against run time of one scene, by method, contact rule and time step.
 #include <unistd.h>
 
 #include <filesystem>
@@ -20,7 +19,6 @@
 #include "driver/progress.hpp"
 #include "driver/run_directory.hpp"
 #include "driver/scene_file.hpp"
-#include "driver/scene_keys.hpp"
 #include "kernels/stepping/method.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/accuracy.hpp"
@@ -180,11 +178,10 @@ int accuracy(const Options& options, const std::string& command_line) {
   Json origin = origin_json(options, study, command_line);
   origin["oracle_seconds"] = papers.seconds;
   if (const auto best = cheapest_as_good(timed, papers, reference.bar)) {
-    const Setting& setting = timed[*best].row.setting;
-    origin["best"] = {{"method", setting.method},
-                      {"contact", std::string(contact_name(timed[*best].row))},
-                      {"precision", std::string(word_of(setting.precision))},
-                      {"dt", timed[*best].row.step},
+    const AccuracyRow& row = timed[*best].row;
+    origin["best"] = {{"method", row.setting.method},
+                      {"contact", std::string(contact_name(row))},
+                      {"dt", row.step},
                       {"seconds", timed[*best].seconds}};
   }
   write_file_whole(directory.path() / "origin.json", origin.dump(2) + "\n");
@@ -198,8 +195,7 @@ int accuracy(const Options& options, const std::string& command_line) {
 void add_accuracy_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "accuracy",
-      "Measure error against run time, by method, contact rule, precision and time step");
+      "accuracy", "Measure error against run time, by method, contact rule and time step");
   command->add_option("SCENE", options->study.scene, "A scene's name, or a file")->required();
   add_set_option(*command, options->study.settings);
   command->add_option("--initial", options->study.initial, "Start from this state (CSV)");
@@ -208,11 +204,6 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
   command
       ->add_option("--contacts", options->study.contacts,
                    "These of a method's contacts: listing, resolved, located [all]")
-      ->delimiter(',');
-  command
-      ->add_option("--precisions", options->study.precisions,
-                   "These for all methods: double, compensated, single; a line that no kernel runs "
-                   "is left out [double; leapfrog and the highest order: all]")
       ->delimiter(',');
   command
       ->add_option("--steps", options->study.steps,

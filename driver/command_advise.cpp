@@ -1,4 +1,4 @@
-// bounce advise: the cheapest method, step, contact and precision that reach an asked error.
+// bounce advise: the cheapest method, step and contact that reach an asked error.
 #include <memory>
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ int advise_on(Options& options) {
 void add_advise_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
-      "advise", "Find the cheapest method, step, contact and precision that reach an asked error");
+      "advise", "Find the cheapest method, step and contact that reach an asked error");
   command->add_option("SCENE", options->scene, "Built-in scene or scene file")->required();
   command->add_option("--error", options->request.error, "Asked error, in the observable's unit")
       ->required();

@@ -302,9 +302,9 @@ void add_options(CLI::App& command, Options& options) {
       "--final-state");
   command.add_option("--final-state", options.final_state,
                      "Write the last state to FILE: CSV, 17 significant digits");
-  auto* error = command.add_option(
-      "--error", options.error,
-      "Asked error: method, step, contact and precision are chosen as bounce advise does");
+  auto* error =
+      command.add_option("--error", options.error,
+                         "Asked error: method, step and contact are chosen as bounce advise does");
   error->excludes(steps)->excludes(kernel);
   command.add_option("--observable", options.observable, "Of which it is the error [height]")
       ->needs(error);

@@ -15,7 +15,6 @@
 #include "driver/origin.hpp"
 #include "driver/progress.hpp"
 #include "driver/scene_file.hpp"
-#include "driver/scene_keys.hpp"
 #include "kernels/stepping/plan.hpp"
 #include "verify/equivalence.hpp"
 #include "verify/oracle.hpp"
@@ -50,13 +49,6 @@ std::vector<Case> make_cases(const Options& options) {
     const Scene scene = SceneFile::find(name).scene();
     if (const std::string refusal = Oracle::refusal(scene); !refusal.empty()) {
       throw PlanError(fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
-    }
-    if (scene.time.precision != Precision::double_precision) {
-      throw PlanError(fmt::format(
-          "bounce verify {}: time.precision = {}: allowed is double: what a kernel may be off is "
-          "told by balls disturbed by double's roundings; how far off another precision is, bounce "
-          "accuracy --precisions measures",
-          name, word_of(scene.time.precision)));
     }
     const std::int64_t whole = scene.steps_until(scene.time.end);
     const std::int64_t steps = options.full ? whole : options.quick ? quick_steps : default_steps;

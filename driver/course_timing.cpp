@@ -30,7 +30,6 @@ constexpr double papers_step = 1e-6;  // s
 std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& initial) {
   scene.time.method = "listing";
   scene.time.step = papers_step;
-  scene.time.precision = Precision::double_precision;
   for (Wall& wall : scene.walls) wall.contact = Contact::listing;
   const Problem problem = make_problem(scene, initial);
   const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
@@ -41,7 +40,7 @@ std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& in
   }
 }
 
-// Two steppers for each method, contact and precision: in flight, and where the ball is lowest.
+// Two steppers for each method and contact: in flight, and where the ball is lowest.
 class Kinds {
  public:
   Kinds(const Scene& scene, const std::optional<State>& initial, const Sampling& sampling,
@@ -75,8 +74,7 @@ class Kinds {
  private:
   [[nodiscard]] std::size_t number_of(const Setting& setting) const {
     const auto same = std::find_if(kinds_.begin(), kinds_.end(), [&](const Setting& kind) {
-      return kind.method == setting.method && kind.contact == setting.contact &&
-             kind.precision == setting.precision;
+      return kind.method == setting.method && kind.contact == setting.contact;
     });
     return static_cast<std::size_t>(same - kinds_.begin());
   }

@@ -23,9 +23,9 @@ struct CourseTimes {
   double oracle = 0.0;  ///< of a step of the oracle; 0: not asked for, or it cannot run the scene
 };
 
-/// Times a step of each method, contact and precision of the rows, in flight and where the ball is
-/// lowest, and takes them by the share of the course that is contact. With located contact whole
-/// courses of each method are timed.
+/// Times a step of each method and contact of the rows, in flight and where the ball is lowest, and
+/// takes them by the share of the course that is contact. With located contact whole courses of
+/// each method are timed.
 CourseTimes time_courses(const Scene& scene, const std::optional<State>& initial,
                          const Sampling& sampling, std::span<const AccuracyRow> rows,
                          bool with_oracle, int turns = 15);

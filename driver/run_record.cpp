@@ -8,7 +8,6 @@
 
 #include "driver/origin.hpp"
 #include "driver/run_summary.hpp"
-#include "driver/scene_keys.hpp"
 #include "driver/trouble_text.hpp"
 
 namespace bounce {
@@ -98,7 +97,6 @@ std::string run_json(const RunRecord& record) {
   json["particles"] = record.particles;
   json["bonds"] = record.bonds;
   json["method"] = record.scene.time.method;
-  json["precision"] = std::string(word_of(record.scene.time.precision));
   json["plan"] = plan_json(record.plan);
   json["stability"] = stability_json(record);
   json["energies_at_start"] = energies_json(result.start);

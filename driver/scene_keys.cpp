@@ -106,11 +106,6 @@ Words<Contact, 3> words_of(Contact) {
            {"resolved", Contact::resolved},
            {"located", Contact::located}}};
 }
-Words<Precision, 3> words_of(Precision) {
-  return {{{"double", Precision::double_precision},
-           {"compensated", Precision::compensated},
-           {"single", Precision::single_precision}}};
-}
 Words<Rest> words_of(Rest) { return {{{"listing", Rest::listing}, {"geometry", Rest::geometry}}}; }
 
 template <class Choice>
@@ -217,9 +212,6 @@ const std::vector<Key<Scene>>& scene_keys() {
       scene_key(
           "time", "method", "", [](Scene & s) -> auto& { return s.time.method; }),
       scene_key(
-          "time", "precision", "of positions and velocities; compensated: double with low parts",
-          [](Scene & s) -> auto& { return s.time.precision; }),
-      scene_key(
           "output", "frames_every", "s", [](Scene & s) -> auto& { return s.output.frames_every; }),
       scene_key(
           "output", "frames_at", "s", [](Scene & s) -> auto& { return s.output.frames_at; }),
@@ -253,31 +245,20 @@ const std::vector<Key<Wall>>& wall_keys() {
   return keys;
 }
 
-namespace {
-
-template <class Choice>
-std::string_view word_in_scenes(Choice wanted) {
-  for (const auto& [word, choice] : words_of(wanted)) {
-    if (choice == wanted) return word;
+std::string_view word_of(Contact contact) {
+  for (const auto& [word, choice] : words_of(contact)) {
+    if (choice == contact) return word;
   }
   return {};
 }
 
-template <class Choice>
-std::optional<Choice> choice_of(std::string_view wanted) {
-  for (const auto& [word, choice] : words_of(Choice{})) {
-    if (wanted == word) return choice;
+std::optional<Contact> contact_of(std::string_view word) {
+  for (const auto& [name, contact] : words_of(Contact{})) {
+    if (name == word) return contact;
   }
   return {};
 }
 
-}  // namespace
-
-std::string_view word_of(Precision precision) { return word_in_scenes(precision); }
-std::string_view word_of(Contact contact) { return word_in_scenes(contact); }
-std::optional<Precision> precision_of(std::string_view word) { return choice_of<Precision>(word); }
-std::optional<Contact> contact_of(std::string_view word) { return choice_of<Contact>(word); }
-std::string precision_words() { return allowed_for(Precision{}); }
 std::string contact_words() { return allowed_for(Contact{}); }
 
 }  // namespace bounce

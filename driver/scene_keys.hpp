@@ -35,14 +35,11 @@ const std::vector<Key<Scene>>& scene_keys();
 /// The keys of one [[wall]].
 const std::vector<Key<Wall>>& wall_keys();
 
-/// A precision or a contact as scene files name it: "double", "listing" ...
-std::string_view word_of(Precision precision);
+/// A contact as scene files name it: "listing" ...
 std::string_view word_of(Contact contact);
 /// That of that name; nothing if there is none.
-std::optional<Precision> precision_of(std::string_view word);
 std::optional<Contact> contact_of(std::string_view word);
 /// All names, for messages.
-std::string precision_words();
 std::string contact_words();
 
 }  // namespace bounce

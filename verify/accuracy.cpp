@@ -63,7 +63,6 @@ Problem problem_of(const Scene& scene, const std::optional<State>& initial, cons
   Scene chosen = scene;
   chosen.time.method = setting.method;
   chosen.time.step = sampling.every / static_cast<double>(setting.steps_a_sample);
-  chosen.time.precision = setting.precision;
   for (Wall& wall : chosen.walls) wall.contact = setting.contact;
   // When the scene writes is no matter of a course, which may have longer steps.
   chosen.output = OutputSpec();

@@ -3,7 +3,7 @@
 //  1. Every course is seen at the same times as the reference, so a step is the sampling interval
 //     over a whole number.
 //  2. Each course is run on the kernel that a plan picks for it on one thread, which is what a user
-//     gets, and half the work of an ensemble where the ball is symmetric; courses side by side.
+//     gets; courses side by side.
 //  3. How long a step takes is measured apart from that, one setting at a time
 //     (driver/course_timing.hpp): cores that are busy with other courses would show in it.
 #pragma once
@@ -26,7 +26,6 @@ struct Setting {
   std::string method;
   Contact contact = Contact::listing;
   std::int64_t steps_a_sample = 1;
-  Precision precision = Precision::double_precision;
 
   bool operator==(const Setting&) const = default;
 };
@@ -62,8 +61,7 @@ struct AccuracyRow {
   CourseErrors errors;
 };
 
-/// The scene by a setting, whatever the scene itself says of method, step, contact, precision and
-/// output.
+/// The scene by a setting, whatever the scene itself says of method, step, contact and output.
 /// Throws SceneError.
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                    const Sampling& sampling);

@@ -314,7 +314,7 @@ void BookingStepper::look_behind_walls() {
 
 // with_walls_ has taken the step; it is taken once more to see what happened in it.
 void BookingStepper::step_by_stages(const Snapshot& start) {
-  Snapshot now{start.state, false, 0, start.low};
+  Snapshot now{start.state, false, 0};
   for (const std::size_t at : start.stage_held ? joined_ : fresh_) {
     StageKernels& kernels = *stages_[at];
     for (Stepper* stepper : {kernels.without.get(), kernels.with_walls.get()}) {

@@ -7,10 +7,8 @@
 #include <iterator>
 #include <memory>
 
-#include "kernels/stepping/ensemble.hpp"
 #include "kernels/stepping/located.hpp"
 #include "kernels/stepping/plan.hpp"
-#include "kernels/stepping/ring_forms.hpp"
 
 namespace bounce {
 namespace {
@@ -68,15 +66,7 @@ std::vector<bool> run_trials(std::span<const Problem> problems, std::span<const 
     std::transform(problems.begin(), problems.end(), std::back_inserter(resolved), as_resolved);
     problems = resolved;
   }
-  if (!find_ring_form(problems.front()).refusal.empty()) {
-    return run_each_alone(problems, steps, look_every, is_good, options);
-  }
-  const PlanRequest request{"auto", options.vector, options.threads};
-  Ensemble ensemble(problems, request, is_good, look_every);
-  ensemble.advance(steps);
-  std::vector<bool> good(problems.size());
-  for (std::size_t i = 0; i < good.size(); ++i) good[i] = !ensemble.retired(i);
-  return good;
+  return run_each_alone(problems, steps, look_every, is_good, options);
 }
 
 }  // namespace bounce

@@ -26,8 +26,8 @@ using IsGood = std::function<bool(std::size_t i, const State&)>;
 /// Runs problem i for steps[i] steps; looks at it every `look_every` steps and at its end. True
 /// where every look was good; a state that is not finite never is. The problems differ in numbers
 /// alone (E, gravity, step, walls, start). Located contact is run as resolved: what it would do at
-/// a wall is a matter of answers, not of stability. Where the ring kernels can run them they run
-/// side by side in an Ensemble, else each on the kernel its plan picks. Throws PlanError.
+/// a wall is a matter of answers, not of stability. Each runs on one thread, on the kernel that a
+/// plan picks for it. Throws PlanError.
 std::vector<bool> run_trials(std::span<const Problem> problems, std::span<const std::int64_t> steps,
                              std::int64_t look_every, const IsGood& is_good,
                              const TrialOptions& options = {});

@@ -83,7 +83,6 @@ Problem make_problem(const Scene& scene, const std::optional<State>& initial) {
     wall.normal = {wall.normal.x / length, wall.normal.y / length};
   }
   problem.method = find_method(scene.time.method);
-  problem.precision = scene.time.precision;
   const std::size_t particles = ball_size(scene.ball).particles;
   if (initial && initial->size() != particles) {
     throw SceneError("initial state", std::to_string(initial->size()) + " particles",

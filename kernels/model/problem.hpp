@@ -23,7 +23,6 @@ struct Model {
   std::vector<Wall> walls;
   double step = 0.0;  ///< s
   const Method* method = nullptr;
-  Precision precision = Precision::double_precision;
 };
 
 /// A scene made ready: constants rounded as the scene says, ball built.

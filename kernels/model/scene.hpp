@@ -80,19 +80,11 @@ struct Wall {
   Contact contact = Contact::listing;
 };
 
-/// What positions and velocities are computed with (ring_precision-inl.hpp).
-enum class Precision {
-  double_precision,
-  compensated,       ///< double, with what a sum of positions rounds away carried along
-  single_precision,  ///< single, with the same of positions and velocities, on twice the lanes
-};
-
 /// Step and length of a run.
 struct TimeSpec {
   double step = 1e-6;  ///< s
   double end = 15.0;   ///< s
   std::string method = "listing";
-  Precision precision = Precision::double_precision;
 };
 
 /// What a run writes, and when. Either of the two frame keys may be given, not both.

@@ -16,8 +16,7 @@ using D = hn::ScalableTag<double>;
 
 template <class Law>
 std::unique_ptr<Stepper> csr_of(const Problem& problem, const Plan& plan) {
-  return std::make_unique<SlicedStepper<FastPhysics<D, Law>>>(problem, plan.threads,
-                                                              plan.free_flight);
+  return std::make_unique<SlicedStepper<FastPhysics<D, Law>>>(problem, plan.threads);
 }
 
 std::unique_ptr<Stepper> make_csr(const Problem& problem, const Plan& plan) {
@@ -49,7 +48,6 @@ std::string prepare_csr(const Problem& problem, const PlanRequest& request, Plan
   plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
   const bool large = problem.initial.size() >= particles_worth_a_team;
   plan.threads = request.threads != 0 ? request.threads : large ? omp_get_max_threads() : 1;
-  leave_out_free_flight(problem, request, plan);
   plan.reasons.emplace_back("csr runs any neighbour list, law and walls");
   return {};
 }

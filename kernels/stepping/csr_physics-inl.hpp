@@ -9,8 +9,7 @@
 //     a zero cannot show in the bits either.
 //  3. Nothing is called among the slices but for ragged ones: walls are looked at after a chunk of
 //     them. A call in the loop, hardly ever taken, made the compiler keep everything in memory
-//     around it; without one a step takes 0.8 of the time. So whether there are walls is asked once
-//     a chunk, and the same code serves free flight (free_flight.hpp) and scenes without walls.
+//     around it; without one a step takes 0.8 of the time.
 //
 // Operations an entry, law (3, 5): 2 loads, 2 subtractions, 2 for R^2, 1.5 multiplications and half
 // a division for the reciprocal, 3 for F/R, 2 fma for the sums; 1680 entries a step for the paper's
@@ -41,7 +40,7 @@ class FastPhysics {
  public:
   using D = Tag;
 
-  explicit FastPhysics(const Model& model) : law_(model.law), walls_(model.walls) {}
+  explicit FastPhysics(const Model& model) : law_(model.law), walls_(&model.walls) {}
   // Constants come multiplied by the kick.
   static constexpr bool scaled() { return true; }
 
@@ -61,14 +60,9 @@ class FastPhysics {
   /// Mirrors what stands behind a wall of the `vectors` vectors from `at` on, just moved.
   HWY_INLINE void mirror_at_walls(const CombinationTable& table, size_t at, size_t vectors,
                                   ParticleStore& store, double* new_x, double* new_y) const {
-    V nearest = hn::Set(d, hwy::HighestValue<double>());
-    for (size_t i = at; i < at + vectors * L; i += L) {
-      const V distance = walls_.distance(d, hn::Load(d, new_x + i), hn::Load(d, new_y + i));
-      nearest = hn::Min(distance, nearest);
-    }
-    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls_.threshold(d))))) {
-      mirror_vectors(table, at, vectors, store, new_x, new_y);
-    }
+    const auto place = [=](size_t k) { return Place{new_x + at + k * L, new_y + at + k * L}; };
+    if (HWY_LIKELY(all_in_front(d, *walls_, vectors, place))) return;
+    mirror_vectors(table, at, vectors, store, new_x, new_y);
   }
 
  private:
@@ -139,8 +133,7 @@ class FastPhysics {
                                    ParticleStore& store, double* new_x, double* new_y) const {
     const V drift = hn::Set(d, table.drift);
     for (size_t i = at; i < at + vectors * L; i += L) {
-      if (hn::AllTrue(d, walls_.clear(d, hn::Load(d, new_x + i), hn::Load(d, new_y + i)))) continue;
-      walls_.mirror(d, drift, new_x + i, new_y + i, store.vx.data() + i, store.vy.data() + i);
+      meet_walls(d, *walls_, drift, new_x + i, new_y + i, store.vx.data() + i, store.vy.data() + i);
     }
   }
 
@@ -169,7 +162,7 @@ class FastPhysics {
   }
 
   Law law_;
-  AnyWalls walls_;
+  const std::vector<Wall>* walls_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

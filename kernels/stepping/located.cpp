@@ -141,9 +141,6 @@ bool is_located(const std::vector<Wall>& walls) {
 
 std::string located_refusal(const Problem& problem) {
   if (!is_located(problem.walls)) return {};
-  if (problem.precision != Precision::double_precision) {
-    return "contact \"located\" is computed in double precision only (time.precision)";
-  }
   // Whatever comes to rest on a wall with alpha = 1 slides.
   const bool slides = std::any_of(problem.walls.begin(), problem.walls.end(), [](const Wall& wall) {
     return wall.alpha == 1.0 && wall.beta != -1.0;

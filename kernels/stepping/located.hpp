@@ -20,7 +20,6 @@
 //  4. For the kernel of half balls one half decides near a wall, too.
 //  5. How far a particle gets is estimated: four times the ball's greatest speed, and twice the way
 //     of its greatest acceleration, whatever their directions. A vibration has one or the other.
-//     free_flight.hpp proves a bound, for windows ten times shorter.
 //
 // Cost: near a wall a step takes some 1.5 us an evaluation for the paper's ball, four to ten times
 // the kernels'. The ball is near for 5 to 30 % of the examples.

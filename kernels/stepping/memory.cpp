@@ -18,10 +18,7 @@ double solver_bytes(const Scene& scene, const std::string& kernel) {
   double most = 0.0;
   bool known = false;
   for (const KernelEntry& entry : kernels()) {
-    double a_particle = entry.memory.a_particle;
-    // Floats with low parts take what doubles without take.
-    if (scene.time.precision == Precision::compensated) a_particle += entry.memory.low_parts;
-    const auto bytes = static_cast<double>(size.particles) * a_particle +
+    const auto bytes = static_cast<double>(size.particles) * entry.memory.a_particle +
                        static_cast<double>(size.entries) * entry.memory.an_entry;
     if (entry.name == kernel) {
       most = bytes;

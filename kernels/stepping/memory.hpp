@@ -13,7 +13,6 @@ namespace bounce {
 ///
 /// A state is 32 bytes a particle (x, y, vx, vy). Per particle, with e entries in its row:
 ///   ring, mirror   32 start + 32 in the kernel's layout                    2 states, no index
-///                  (ring in compensated precision: 64, low parts beside)
 ///   csr, strict    32 start + 48 (positions stand twice) + 4 + 2 e         index of 8 bytes an
 ///                  and for a list 8 + 6 e                                  entry and less
 ///   located contact 300 beside its kernel's

@@ -20,11 +20,10 @@ using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
                                      std::int64_t sum, const Plan& plan) {
-  return with_ring_form(law_form(problem.law), shape.rings,
-                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
-                          return std::make_unique<MirrorStepper<D, Law, R>>(
-                              problem, shape, sum, plan.threads, plan.free_flight);
-                        });
+  return with_ring_form(
+      law_form(problem.law), shape.rings, [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+        return std::make_unique<MirrorStepper<D, Law, R>>(problem, shape, sum, plan.threads);
+      });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -55,7 +54,6 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
     plan.reasons.emplace_back(std::to_string(columns) + " columns of vectors are enough for " +
                               std::to_string(plan.threads) + " threads: a thread needs three");
   }
-  leave_out_free_flight(problem, request, plan);
   plan.multiplications = ring_multiplications(problem, form.shape.rings, columns);
   plan.reasons.emplace_back(
       "the ball, its walls and gravity are left-right symmetric: half of it "

@@ -40,7 +40,6 @@
 #include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/ring_columns-inl.hpp"
 #include "kernels/stepping/ring_forms-inl.hpp"
-#include "kernels/stepping/ring_survey-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -85,33 +84,13 @@ class MirrorHalf {
     return static_cast<std::int64_t>(l) * (half_ - static_cast<std::int64_t>(last_)) / after_first;
   }
 
-  template <class Walls>
-  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
-                         const Walls& walls, std::int64_t steps) {
+  HWY_NOINLINE void run(const Columns& physics, const std::vector<Constants>& constants,
+                        const std::vector<Wall>& walls, std::int64_t steps) {
     mend_first(column(0));
     mend_last(column(last_));
     for (std::int64_t s = 0; s < steps; ++s) {
       for (const Constants& c : constants) pass(physics, c, walls);
     }
-  }
-
-  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
-           std::int64_t steps) {
-    in_turns.advance(
-        steps, [&](const auto& walls, FlightSurvey& to) { survey(physics, walls, to); },
-        [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
-  }
-
-  /// Of the whole ball: what the other half does is the mirror image.
-  HWY_NOINLINE void survey(const Columns& physics, const std::vector<Wall>& walls,
-                           FlightSurvey& to) {
-    mend_first(column(0));
-    mend_last(column(last_));
-    fill_ghosts();
-    survey_bonds(physics, before(), last_ + 2, to);
-    survey_particles<Columns>(walls, column(0), last_ + 1, to);
-    to.vx.add(-to.vx.least);
-    to.vx.add(-to.vx.greatest);
   }
 
   // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
@@ -195,25 +174,24 @@ class MirrorHalf {
   }
 
   // One stage. As in the ring kernel, what was moved last before is wanted late.
-  template <class Walls>
-  HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls) {
+  HWY_INLINE void pass(const Columns& physics, const Constants& c, const std::vector<Wall>& walls) {
     double* u = u_.data();
     double* u_first = u + chunk * Columns::terms;
-    V nearest = Columns::far_away();
     Column left;
+    V lowest = Columns::high_up();
     fill_ghosts();
     for (size_t k = 1; k <= last_; k += chunk) {
       const size_t count = std::min(chunk, last_ + 1 - k);
       Columns::reciprocals(column(k), count, u);
       if (k == 1) {
         Columns::reciprocals(before(), 2, u_first);
-        physics.template sums<Rest::drop>(c, walls, before(), 1, u_first, left, nearest);
-        physics.template sums<Rest::finish>(c, walls, column(0), 1, u_first + Columns::terms, left,
-                                            nearest);
+        physics.template sums<Rest::drop>(c, before(), 1, u_first, left, lowest);
+        physics.template sums<Rest::finish>(c, column(0), 1, u_first + Columns::terms, left,
+                                            lowest);
       }
-      physics.template sums<Rest::finish>(c, walls, column(k), count, u, left, nearest);
+      physics.template sums<Rest::finish>(c, column(k), count, u, left, lowest);
     }
-    Columns::mirror_at_walls(c, walls, column(0), last_ + 1, nearest);
+    Columns::meet_walls(c, walls, column(0), last_ + 1, lowest);
     mend_first(column(0));
     mend_last(column(last_));
   }

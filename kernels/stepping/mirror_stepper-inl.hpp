@@ -37,13 +37,11 @@ class MirrorStepper final : public StagedStepper {
  public:
   /// `sum` as find_mirror_axis gives it; half the columns at least two a lane, and
   /// Team::fewest_columns a thread.
-  MirrorStepper(const Problem& start, const RingShape& shape, std::int64_t sum, int threads,
-                bool free_flight)
+  MirrorStepper(const Problem& start, const RingShape& shape, std::int64_t sum, int threads)
       : StagedStepper(start),
         shape_(shape),
         sum_(sum),
         physics_(shape, start.law),
-        in_turns_(start, free_flight),
         walk_(std::make_unique<Walk>(choose_walk(shape.per_ring, threads))) {
     MirrorStepper::write(start.initial);
   }
@@ -54,7 +52,7 @@ class MirrorStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    std::visit([&](auto& walk) { walk.run(physics_, constants, in_turns_, steps); }, *walk_);
+    std::visit([&](auto& walk) { walk.run(physics_, constants, model().walls, steps); }, *walk_);
   }
 
   void read(State& state) const override {
@@ -72,7 +70,6 @@ class MirrorStepper final : public StagedStepper {
     if (const std::string why = not_symmetric(state, shape_, sum_); !why.empty()) {
       throw std::invalid_argument("the mirror kernel cannot take this state: " + why);
     }
-    in_turns_.forget();
     for_each_particle([&](double* at, int ring, std::int64_t q) {
       const size_t i = index_of(ring, wrapped(q + sum_ / 2));
       at[0] = state.x[i];
@@ -124,7 +121,6 @@ class MirrorStepper final : public StagedStepper {
   RingShape shape_;
   std::int64_t sum_;
   Columns physics_;
-  WallsInTurns in_turns_;
   std::unique_ptr<Walk> walk_;
 };
 

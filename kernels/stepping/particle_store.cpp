@@ -22,13 +22,10 @@ AlignedArray padded(std::size_t particles) {
 
 }  // namespace
 
-template <class T>
-AlignedArrayOf<T>::AlignedArrayOf(std::size_t size)
-    : values_(hwy::AllocateAligned<T>(size)), size_(size) {
-  std::fill_n(values_.get(), size, T{0});
+AlignedArray::AlignedArray(std::size_t size)
+    : values_(hwy::AllocateAligned<double>(size)), size_(size) {
+  std::fill_n(values_.get(), size, 0.0);
 }
-template class AlignedArrayOf<double>;
-template class AlignedArrayOf<float>;
 
 ParticleStore::ParticleStore(std::size_t particles)
     : x{padded(particles), padded(particles)},

@@ -9,23 +9,21 @@
 
 namespace bounce {
 
-/// Numbers on a 64-byte boundary, zero at the start. T: double or float.
-template <class T>
-class AlignedArrayOf {
+/// Numbers on a 64-byte boundary, zero at the start.
+class AlignedArray {
  public:
-  AlignedArrayOf() = default;
-  explicit AlignedArrayOf(std::size_t size);
-  [[nodiscard]] T* data() { return values_.get(); }
-  [[nodiscard]] const T* data() const { return values_.get(); }
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t size);
+  [[nodiscard]] double* data() { return values_.get(); }
+  [[nodiscard]] const double* data() const { return values_.get(); }
   [[nodiscard]] std::size_t size() const { return size_; }
-  T& operator[](std::size_t i) { return values_[i]; }
-  const T& operator[](std::size_t i) const { return values_[i]; }
+  double& operator[](std::size_t i) { return values_[i]; }
+  const double& operator[](std::size_t i) const { return values_[i]; }
 
  private:
-  hwy::AlignedFreeUniquePtr<T[]> values_;
+  hwy::AlignedFreeUniquePtr<double[]> values_;
   std::size_t size_ = 0;
 };
-using AlignedArray = AlignedArrayOf<double>;
 
 /// Particles as a structure of arrays in the listing's order, each array padded to whole vectors of
 /// eight; the padding repeats the last particle. Positions stand twice: a pass reads one copy and

@@ -33,9 +33,6 @@ const KernelEntry& find_entry(const std::string& name, std::span<const KernelEnt
 std::string prepare(const KernelEntry& entry, const Problem& problem, const PlanRequest& request,
                     Plan& plan) {
   plan.kernel = entry.name;
-  if (problem.precision != Precision::double_precision && !entry.other_precisions) {
-    return "it computes in double precision only, without low parts (time.precision)";
-  }
   const LawForm law = law_form(problem.law);
   const WallForm walls = wall_form(problem);
   plan.law = describe(law);
@@ -50,9 +47,7 @@ Plan make_located_plan(const Problem& problem, const PlanRequest& request,
                        std::span<const KernelEntry> entries) {
   const std::string refusal = located_refusal(problem);
   if (!refusal.empty()) throw PlanError("this scene cannot be run: " + refusal);
-  PlanRequest in_flight = request;
-  in_flight.free_flight = false;  // there is no wall test to be left out
-  Plan plan = make_plan(as_resolved(problem), in_flight, entries);
+  Plan plan = make_plan(as_resolved(problem), request, entries);
   plan.walls = describe(wall_form(problem)) + ", contact located";
   plan.left_out.emplace_back("wall test where no wall is near");
   plan.reasons.emplace_back("contact located: near a wall, one thread in plain code");

@@ -24,7 +24,6 @@ struct PlanRequest {
   std::string kernel = "auto";
   std::string vector = "auto";  ///< auto, avx2, avx512
   int threads = 0;              ///< 1 to 256; 0: the plan decides
-  bool free_flight = true;      ///< false: the wall test is always run, to measure what it costs
 };
 
 /// The decision, with what a reader of run.json wants to know of it.
@@ -35,9 +34,8 @@ struct Plan {
   int threads = 1;
   /// Multiplications and multiply-adds of whole vectors a step takes at least; 0: not counted.
   double multiplications = 0.0;
-  bool free_flight = false;  ///< the wall test is not run while no particle can reach a wall
-  std::string law;           ///< which form of the law was compiled in
-  std::string walls;         ///< which form of the walls was compiled in
+  std::string law;                    ///< which form of the law was compiled in
+  std::string walls;                  ///< which form of the walls was compiled in
   std::vector<std::string> left_out;  ///< what this scene does not need and this code does not have
   std::vector<std::string> reasons;   ///< why this kernel, and why not the faster ones
 };
@@ -52,7 +50,6 @@ class PlanError : public std::invalid_argument {
 struct StepperMemory {
   double a_particle;
   double an_entry;
-  double low_parts = 0.0;  ///< a particle, on top, in compensated precision
 };
 
 /// One kernel, as the registry knows it.
@@ -64,8 +61,6 @@ struct KernelEntry {
   /// Fills lanes, threads, law, walls and left_out of the plan, or returns why it cannot run this.
   std::function<std::string(const Problem&, const PlanRequest&, Plan&)> prepare;
   std::function<std::unique_ptr<Stepper>(const Problem&, const Plan&)> make;
-  /// Whether prepare() looks at the precision; else only double precision comes to it.
-  bool other_precisions = false;
 };
 
 /// From here on a second thread saves more than meeting it costs, whatever the kernel and however

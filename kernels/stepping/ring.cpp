@@ -7,7 +7,6 @@
 #include "kernels/stepping/ring.hpp"
 #include "kernels/stepping/ring_forms-inl.hpp"
 #include "kernels/stepping/ring_forms.hpp"
-#include "kernels/stepping/ring_precision.hpp"
 #include "kernels/stepping/ring_stepper-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,11 +18,10 @@ using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape,
                                    const Plan& plan) {
-  return with_ring_form(law_form(problem.law), shape.rings,
-                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
-                          return std::make_unique<RingStepper<D, Law, R>>(
-                              problem, shape, plan.threads, plan.free_flight);
-                        });
+  return with_ring_form(
+      law_form(problem.law), shape.rings, [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+        return std::make_unique<RingStepper<D, Law, R>>(problem, shape, plan.threads);
+      });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -39,9 +37,6 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
   const RingForm form = find_ring_form(problem);
   if (!form.refusal.empty()) return form.refusal;
   const RingShape& shape = form.shape;
-  if (problem.precision != Precision::double_precision) {
-    return prepare_ring_precision(problem, shape, request, plan);
-  }
   plan.lanes = ring_lanes(shape.per_ring, plan.vector);
   if (plan.lanes == 0) {
     return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
@@ -52,11 +47,6 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
     return std::to_string(plan.threads) + " threads are too many for its " +
            std::to_string(columns) + " columns of vectors: a thread needs two";
   }
-  const auto bytes_a_column =
-      sizeof(double) * 4 * static_cast<std::size_t>(shape.rings * plan.lanes);
-  const RingWalk walk = ring_walk(static_cast<std::size_t>(columns),
-                                  static_cast<std::size_t>(plan.threads), bytes_a_column);
-  if (walk != RingWalk::tiles) leave_out_free_flight(problem, request, plan);
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   plan.reasons.push_back("the neighbour list is " + std::to_string(shape.rings) +
                          " rings with constant offsets: each bond once, no index, " +
@@ -69,9 +59,6 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
 std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
   const auto shape = find_rings(problem.bonds);
   if (!shape) return nullptr;
-  if (problem.precision != Precision::double_precision) {
-    return make_ring_precision(problem, *shape, plan);
-  }
   return plan.lanes == 8 ? N_AVX3::make_ring(problem, *shape, plan)
                          : N_AVX2::make_ring(problem, *shape, plan);
 }
@@ -82,10 +69,9 @@ KernelEntry ring_entry() {
   return {.name = "ring",
           .description = "rings with constant offsets: each bond once, no index",
           .automatic = true,
-          .memory = {.a_particle = 32.0, .an_entry = 0.0, .low_parts = 32.0},
+          .memory = {.a_particle = 32.0, .an_entry = 0.0},
           .prepare = prepare_ring,
-          .make = make,
-          .other_precisions = true};
+          .make = make};
 }
 
 }  // namespace bounce

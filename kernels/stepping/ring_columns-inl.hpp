@@ -26,9 +26,9 @@
 //     are free, for a store and two loads. Keeping them took 70 cycles.
 //  5. The reciprocals of up to four squared distances share one division (multiply, divide once,
 //     multiply back): IEEE operations only, so every machine gives the same bits.
-//  6. Nothing is called within a sweep. How near the nearest particle came to a wall is one
-//     minimum a particle; where one is behind, the columns are mirrored after the sweep. A call in
-//     the loop, never taken, still made the compiler keep everything in memory around it.
+//  6. Nothing is called within a sweep: a call in the loop, never taken, still made the compiler
+//     keep everything in memory around it. So walls come after it (vector_walls-inl.hpp); within,
+//     the least height is one minimum a particle.
 //  7. One answer: a particle's left bonds are summed from the gravity kick on their own, the others
 //     from its velocity, and the two are added once. That association, and the grouping of
 //     the reciprocals (the bonds of one column), depend on the neighbourhood alone, never on where
@@ -79,7 +79,7 @@ inline constexpr int most_in_group = 4;  // bonds that share a division
 
 template <class V>
 HWY_INLINE V one_of() {
-  return hn::Set(hn::DFromV<V>(), hn::TFromV<V>{1});
+  return hn::Set(hn::DFromV<V>(), 1.0);
 }
 
 /// Reciprocals of N values by one division.
@@ -110,24 +110,18 @@ HWY_INLINE void reciprocals_of(const V* r2, V* u) {
   }
 }
 
-/// D: Highway's tag with the numbers and lanes to use. Law: the form the scene needs. R: rings.
-/// low: positions and velocities have low parts (ring_precision-inl.hpp). The form of the walls is
-/// a parameter of the sweeps: all forms move the same columns.
-template <class D, class Law, int R, bool low = false>
+/// D: Highway's tag with the lanes to use. Law: the form the scene needs. R: rings.
+template <class D, class Law, int R>
 class RingColumns {
  public:
   using Tag = D;
-  using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
-  static constexpr bool has_low = low;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
   static constexpr int rings = R;
-  static constexpr size_t row = size_t{R} * L;      // numbers of x of a column
-  static constexpr size_t positions = 2 * row;      // numbers of x and y
-  static constexpr size_t low_positions = 4 * row;  // behind x, y, vx and vy
-  static constexpr size_t low_velocities = 6 * row;
-  static constexpr size_t block = (low ? 8 : 4) * row;
+  static constexpr size_t row = size_t{R} * L;  // numbers of x of a column
+  static constexpr size_t positions = 2 * row;  // numbers of x and y
+  static constexpr size_t block = 4 * row;
   static constexpr int bonds_a_column = 3 * R - 2;
   static constexpr size_t terms = size_t{bonds_a_column} * L;  // of a column's reciprocals
 
@@ -158,38 +152,24 @@ class RingColumns {
 
   /// What becomes of the sums of a column from its velocity on.
   enum class Rest {
-    finish,  ///< its left sums are there: kick, drift, wall
+    finish,  ///< its left sums are there: kick and drift
     keep,    ///< they come later: put into the place of the velocities
     drop     ///< another tile's column, only its right neighbour's left sums are wanted
   };
 
   RingColumns(RingShape shape, PairLaw law) : shape_(std::move(shape)), law_(law) {}
 
-  /// Each lane's constants; a lane without any (null) stands still.
-  [[nodiscard]] Constants make_constants(const StageConstants* const* lanes) const {
-    const auto each = [lanes](const auto& value_of) HWY_ATTR {
-      HWY_ALIGN T values[L];
-      for (size_t l = 0; l < L; ++l) {
-        values[l] = lanes[l] == nullptr ? T{0} : static_cast<T>(value_of(*lanes[l]));
-      }
-      return hn::Load(d, values);
-    };
+  [[nodiscard]] Constants make_constants(const StageConstants& stage) const {
     Constants c;
     for (int bond = 0; bond < bonds_a_column; ++bond) {
-      const auto at = static_cast<size_t>(bond_class(bond));
-      c.attraction[bond] = each([at](const StageConstants& s) { return s.kick[at].attraction; });
-      c.repulsion[bond] = each([at](const StageConstants& s) { return s.kick[at].repulsion; });
+      const BondClass& kick = stage.kick[static_cast<size_t>(bond_class(bond))];
+      c.attraction[bond] = hn::Set(d, kick.attraction);
+      c.repulsion[bond] = hn::Set(d, kick.repulsion);
     }
-    c.gx = each([](const StageConstants& s) { return s.gravity.x; });
-    c.gy = each([](const StageConstants& s) { return s.gravity.y; });
-    c.drift = each([](const StageConstants& s) { return s.drift; });
+    c.gx = hn::Set(d, stage.gravity.x);
+    c.gy = hn::Set(d, stage.gravity.y);
+    c.drift = hn::Set(d, stage.drift);
     return c;
-  }
-  /// The same in all lanes.
-  [[nodiscard]] Constants make_constants(const StageConstants& stage) const {
-    const StageConstants* lanes[L];
-    std::fill_n(lanes, L, &stage);
-    return make_constants(lanes);
   }
 
   /// The class of bond b of a column.
@@ -200,14 +180,14 @@ class RingColumns {
   }
 
   /// x and y of ring r of the column at `at`.
-  static HWY_INLINE V x_of(const T* at, int r) {
+  static HWY_INLINE V x_of(const double* at, int r) {
     return hn::Load(d, at + static_cast<size_t>(r) * L);
   }
-  static HWY_INLINE V y_of(const T* at, int r) {
+  static HWY_INLINE V y_of(const double* at, int r) {
     return hn::Load(d, at + row + static_cast<size_t>(r) * L);
   }
 
-  static HWY_INLINE Column load(const T* at) {
+  static HWY_INLINE Column load(const double* at) {
     Column column;
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
       column.x[r] = x_of(at, r);
@@ -215,7 +195,7 @@ class RingColumns {
     }
     return column;
   }
-  static HWY_INLINE void store(const Column& column, T* at) {
+  static HWY_INLINE void store(const Column& column, double* at) {
     BOUNCE_UNROLL for (int r = 0; r < R; ++r) {
       hn::Store(column.x[r], d, at + static_cast<size_t>(r) * L);
       hn::Store(column.y[r], d, at + row + static_cast<size_t>(r) * L);
@@ -227,9 +207,9 @@ class RingColumns {
     if constexpr (L == 1) {
       return column;
     } else {
-      HWY_ALIGN hwy::MakeSigned<T> lanes[L];
+      HWY_ALIGN std::int64_t lanes[L];
       for (size_t l = 0; l < L; ++l) {
-        lanes[l] = static_cast<hwy::MakeSigned<T>>((l + L + static_cast<size_t>(shift)) % L);
+        lanes[l] = static_cast<std::int64_t>((l + L + static_cast<size_t>(shift)) % L);
       }
       const auto indices = hn::SetTableIndices(d, lanes);
       Column turned;
@@ -243,55 +223,55 @@ class RingColumns {
 
   /// First sweep: 1/R^2 of the bonds of `columns` columns, from `at` on, into u. Behind the last
   /// one the next column's positions must stand.
-  static HWY_INLINE void reciprocals(const T* at, size_t columns, T* u) {
+  static HWY_INLINE void reciprocals(const double* at, size_t columns, double* u) {
     Column here = load(at);
     for (; columns > 0; --columns, u += terms) {
       at += block;
       const Column next = load(at);
-      group_reciprocals<0>(here, next, at - block, u);
+      group_reciprocals<0>(here, next, u);
       here = next;
     }
   }
 
   /// Second sweep, over the same columns. `left` comes with the left sums of the first column and
-  /// goes with those of the column behind the last. `nearest` becomes the least distance from a
-  /// wall, NaN apart.
-  template <Rest rest, class Walls>
-  HWY_INLINE void sums(const Constants& c, const Walls& walls, T* at, size_t columns, const T* u,
-                       Column& left, V& nearest) const {
+  /// goes with those of the column behind the last. `lowest` becomes the least height, NaN apart.
+  template <Rest rest>
+  HWY_INLINE void sums(const Constants& c, double* at, size_t columns, const double* u,
+                       Column& left, V& lowest) const {
     for (; columns > 0; --columns, at += block, u += terms) {
       Column from_velocity, on_next;
-      ring_sums<0, rest>(c, walls, at, u, from_velocity, left, on_next, nearest);
+      ring_sums<0, rest>(c, at, u, from_velocity, left, on_next, lowest);
       left = on_next;
     }
   }
 
-  /// Kick, drift and wall of a column whose sums from the velocity on were kept.
-  template <class Walls>
-  HWY_INLINE void finish_kept(const Constants& c, const Walls& walls, T* at, const Column& left,
-                              V& nearest) const {
-    const Column kept = load(at + summed);
-    BOUNCE_UNROLL for (int r = 0; r < R; ++r) finish(c, walls, at, r, kept, left, nearest);
+  /// Kick and drift of a column whose sums from the velocity on were kept.
+  HWY_INLINE void finish_kept(const Constants& c, double* at, const Column& left, V& lowest) const {
+    const Column kept = load(at + positions);
+    BOUNCE_UNROLL for (int r = 0; r < R; ++r) finish(c, at, r, kept, left, lowest);
   }
 
-  /// `nearest` before the first column.
-  static HWY_INLINE V far_away() { return hn::Set(d, hwy::HighestValue<T>()); }
+  /// `lowest` before the first column.
+  static HWY_INLINE V high_up() { return hn::Set(d, hwy::HighestValue<double>()); }
 
-  /// After the sweeps: mirrors what stands behind a wall.
-  template <class Walls>
-  static HWY_INLINE void mirror_at_walls(const Constants& c, const Walls& walls, T* at,
-                                         size_t columns, V nearest) {
-    if constexpr (Walls::any) {
-      if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
-        mirror_columns(c, walls, at, columns);
-      }
+  /// After the sweeps: mirrors what stands behind a wall. `lowest`: of these columns.
+  static HWY_INLINE void meet_walls(const Constants& c, const std::vector<Wall>& walls, double* at,
+                                    size_t columns, V lowest) {
+    const auto place = [at](size_t k, size_t j) {
+      const double* x = at + (2 * k + j / R) * block + j % R * L;
+      return Place{x, x + row};
+    };
+    const size_t pairs = columns / 2;
+    const auto odd_one = [=](size_t, size_t r) { return place(pairs, r); };
+    for (const Wall& wall : walls) {
+      const bool clear = is_floor(wall) ? above(d, wall, lowest)
+                                        : in_front<2 * size_t{R}>(d, wall, pairs, place) &&
+                                              in_front<size_t{R}>(d, wall, columns % 2, odd_one);
+      if (HWY_UNLIKELY(!clear)) return mirror_columns(c, walls, at, columns);
     }
   }
 
  private:
-  // Where what a particle's sums begin from stands.
-  static constexpr size_t summed = low ? low_velocities : positions;
-
   // Numbers of the bonds of a column.
   static constexpr int along(int ring) { return ring; }
   static constexpr int same(int inner) { return R + 2 * inner; }
@@ -299,20 +279,14 @@ class RingColumns {
 
   // Bonds first, first + 1, ... of a column share a division, most_in_group of them.
   template <int first>
-  static HWY_INLINE void group_reciprocals(const Column& here, const Column& next, const T* at,
-                                           T* u) {
+  static HWY_INLINE void group_reciprocals(const Column& here, const Column& next, double* u) {
     constexpr int count = std::min(most_in_group, bonds_a_column - first);
     V r2[count], over[count];
     BOUNCE_UNROLL for (int i = 0; i < count; ++i) {
       const BondPlace p = place(first + i);
       const Column& other = p.next ? next : here;
-      V dx = hn::Sub(here.x[p.from], other.x[p.to]);
-      V dy = hn::Sub(here.y[p.from], other.y[p.to]);
-      if constexpr (low) {
-        const T *from = at + low_positions, *to = p.next ? from + block : from;
-        dx = hn::Add(dx, hn::Sub(x_of(from, p.from), x_of(to, p.to)));
-        dy = hn::Add(dy, hn::Sub(y_of(from, p.from), y_of(to, p.to)));
-      }
+      const V dx = hn::Sub(here.x[p.from], other.x[p.to]);
+      const V dy = hn::Sub(here.y[p.from], other.y[p.to]);
       r2[i] = hn::MulAdd(dy, dy, hn::Mul(dx, dx));
     }
     reciprocals_of<count>(r2, over);
@@ -320,16 +294,16 @@ class RingColumns {
       hn::Store(over[i], d, u + static_cast<size_t>(first + i) * L);
     }
     if constexpr (first + count < bonds_a_column) {
-      group_reciprocals<first + count>(here, next, at, u);
+      group_reciprocals<first + count>(here, next, u);
     }
   }
 
   // Bond b: on `rest` what acts on the column at `at`, on `on_next` what acts on the next one.
   template <int b>
-  HWY_INLINE void bond(const Constants& c, const T* at, const T* u, Column& rest,
+  HWY_INLINE void bond(const Constants& c, const double* at, const double* u, Column& rest,
                        Column& on_next) const {
     constexpr BondPlace p = place(b);
-    const T* to = p.next ? at + block : at;
+    const double* to = p.next ? at + block : at;
     const V dx = hn::Sub(x_of(at, p.from), x_of(to, p.to));
     const V dy = hn::Sub(y_of(at, p.from), y_of(to, p.to));
     const V over = hn::Load(d, u + static_cast<size_t>(b) * L);
@@ -343,122 +317,66 @@ class RingColumns {
   }
 
   template <int r>
-  HWY_INLINE void start_ring(const Constants& c, const T* at, const T* u, Column& rest,
+  HWY_INLINE void start_ring(const Constants& c, const double* at, const double* u, Column& rest,
                              Column& on_next) const {
-    rest.x[r] = x_of(at + summed, r);
-    rest.y[r] = y_of(at + summed, r);
+    rest.x[r] = x_of(at + positions, r);
+    rest.y[r] = y_of(at + positions, r);
     bond<along(r)>(c, at, u, rest, on_next);
   }
 
-  template <Rest rest, class Walls>
-  HWY_INLINE void end_ring(const Constants& c, const Walls& walls, T* at, int r, const Column& sums,
-                           const Column& left, V& nearest) const {
+  template <Rest rest>
+  HWY_INLINE void end_ring(const Constants& c, double* at, int r, const Column& sums,
+                           const Column& left, V& lowest) const {
     if constexpr (rest == Rest::finish) {
-      finish(c, walls, at, r, sums, left, nearest);
+      finish(c, at, r, sums, left, lowest);
     } else if constexpr (rest == Rest::keep) {
-      hn::Store(sums.x[r], d, at + summed + static_cast<size_t>(r) * L);
-      hn::Store(sums.y[r], d, at + summed + row + static_cast<size_t>(r) * L);
+      hn::Store(sums.x[r], d, at + positions + static_cast<size_t>(r) * L);
+      hn::Store(sums.y[r], d, at + positions + row + static_cast<size_t>(r) * L);
     }
   }
 
   // The bonds from ring to ring outwards: a ring is finished when its last bond is summed, so few
   // sums are alive at a time. Along, same, diagonal of each pair of rings: the order of the numbers
   // for each particle.
-  template <int ring, Rest rest, class Walls>
-  HWY_INLINE void ring_sums(const Constants& c, const Walls& walls, T* at, const T* u, Column& sums,
-                            const Column& left, Column& on_next, V& nearest) const {
+  template <int ring, Rest rest>
+  HWY_INLINE void ring_sums(const Constants& c, double* at, const double* u, Column& sums,
+                            const Column& left, Column& on_next, V& lowest) const {
     if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
     if constexpr (ring + 1 < R) {
       start_ring<ring + 1>(c, at, u, sums, on_next);
       bond<same(ring)>(c, at, u, sums, on_next);
       bond<diagonal(ring)>(c, at, u, sums, on_next);
     }
-    end_ring<rest>(c, walls, at, ring, sums, left, nearest);
+    end_ring<rest>(c, at, ring, sums, left, lowest);
     if constexpr (ring + 1 < R) {
-      ring_sums<ring + 1, rest>(c, walls, at, u, sums, left, on_next, nearest);
+      ring_sums<ring + 1, rest>(c, at, u, sums, left, on_next, lowest);
     }
   }
 
-  template <class Walls>
-  HWY_INLINE void finish(const Constants& c, const Walls& walls, T* at, int ring,
-                         const Column& sums, const Column& left, V& nearest) const {
-    T* const in_ring = at + static_cast<size_t>(ring) * L;
-    const V x = move(c.drift, hn::Add(sums.x[ring], left.x[ring]), in_ring);
+  HWY_INLINE void finish(const Constants& c, double* at, int ring, const Column& sums,
+                         const Column& left, V& lowest) const {
+    double* const in_ring = at + static_cast<size_t>(ring) * L;
+    move(c.drift, hn::Add(sums.x[ring], left.x[ring]), in_ring);
     const V y = move(c.drift, hn::Add(sums.y[ring], left.y[ring]), in_ring + row);
-    if constexpr (Walls::any) nearest = hn::Min(walls.distance(d, x, y), nearest);
+    lowest = hn::Min(y, lowest);
   }
 
-  // One coordinate of a particle: `at` its place, `sum` its velocity, or the kick where that has a
-  // low part. Returns the coordinate.
-  static HWY_INLINE V move(V drift, V sum, T* at) {
-    V v = sum, x = hn::Load(d, at);
-    if constexpr (low) {
-      v = add(hn::Load(d, at + positions), sum, at + low_velocities);
-      const V low_v = hn::Load(d, at + low_velocities), low_x = hn::Load(d, at + low_positions);
-      x = add(x, hn::MulAdd(drift, v, hn::MulAdd(drift, low_v, low_x)), at + low_positions);
-    } else {
-      x = hn::MulAdd(drift, v, x);
-    }
+  // One coordinate of a particle: `at` its place, v its new velocity. Returns the coordinate.
+  static HWY_INLINE V move(V drift, V v, double* at) {
+    const V x = hn::MulAdd(drift, v, hn::Load(d, at));
     hn::Store(v, d, at + positions);
     hn::Store(x, d, at);
     return x;
   }
 
-  // high + more; what is lost in it goes to `lost`. That is exact where |more| <= |high|; else it
-  // is off by an ULP of `more`, as `more` itself is.
-  static HWY_INLINE V add(V high, V more, T* lost) {
-    const V sum = hn::Add(high, more);
-    hn::Store(hn::Sub(more, hn::Sub(sum, high)), d, lost);
-    return sum;
-  }
-
-  template <class Walls>
-  static HWY_NOINLINE void mirror_columns(const Constants& c, const Walls& walls, T* at,
-                                          size_t columns) {
+  static HWY_NOINLINE void mirror_columns(const Constants& c, const std::vector<Wall>& walls,
+                                          double* at, size_t columns) {
     for (; columns > 0; --columns, at += block) {
       for (int r = 0; r < R; ++r) {
-        if (hn::AllTrue(d, walls.clear(d, x_of(at, r), y_of(at, r)))) continue;
-        T* x = at + static_cast<size_t>(r) * L;
-        if constexpr (low) {
-          mirror_with_low(c.drift, walls.walls, x);
-        } else {
-          walls.mirror(d, c.drift, x, x + row, x + 2 * row, x + 3 * row);
-        }
+        double* x = at + static_cast<size_t>(r) * L;
+        bounce::HWY_NAMESPACE::meet_walls(d, walls, c.drift, x, x + row, x + 2 * row, x + 3 * row);
       }
     }
-  }
-
-  // The rules are linear in position and velocity: a low part is turned by the wall as the high
-  // one. Where a particle is stopped, nothing is left of it.
-  static HWY_NOINLINE void mirror_with_low(V drift, const std::vector<Wall>& walls, T* x) {
-    const V zero = hn::Zero(d);
-    for (const Wall& wall : walls) {
-      const auto w = in_all_lanes(d, wall);
-      const V distance = distance_from(w, hn::Load(d, x), hn::Load(d, x + row));
-      reflect(d, w, drift, x, x + row, x + 2 * row, x + 3 * row);
-      const auto met = hn::And(hn::Le(distance, zero), hn::Ge(drift, zero));
-      const V back = wall.contact == Contact::resolved ? w.beta : hn::Set(d, T{-1});
-      turn_low(met, w, one_of<V>(), back, x + low_positions);
-      T* const slow = x + low_velocities;
-      turn_low(met, w, w.alpha, w.beta, slow);
-      for (const size_t part : {size_t{0}, row}) {
-        const auto stopped = hn::And(met, hn::Eq(hn::Load(d, x + positions + part), zero));
-        hn::Store(hn::IfThenElse(stopped, zero, hn::Load(d, slow + part)), d, slow + part);
-      }
-    }
-  }
-
-  // In the lanes of `met`: the part along the wall times `along`, the part across it times `back`.
-  template <class Mask>
-  static HWY_INLINE void turn_low(Mask met, const WallVectors<V>& w, V along, V back, T* at) {
-    const V lx = hn::Load(d, at), ly = hn::Load(d, at + row);
-    const V across = hn::MulAdd(w.nx, lx, hn::Mul(w.ny, ly));
-    const V tx = hn::NegMulAdd(across, w.nx, lx), ty = hn::NegMulAdd(across, w.ny, ly);
-    const V after = hn::Mul(back, across);
-    const V new_x = hn::MulAdd(along, tx, hn::Mul(after, w.nx));
-    const V new_y = hn::MulAdd(along, ty, hn::Mul(after, w.ny));
-    hn::Store(hn::IfThenElse(met, new_x, lx), d, at);
-    hn::Store(hn::IfThenElse(met, new_y, ly), d, at + row);
   }
 
   RingShape shape_;

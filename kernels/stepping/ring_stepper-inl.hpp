@@ -1,8 +1,7 @@
 // ring: concentric rings with constant offsets, by sweeps over their columns (ring_columns-inl.hpp
 // says how a column is computed and why).
 //
-// ring_walk says which walk a ball needs. Loop and team leave out the wall test in free flight
-// (free_flight.hpp); tiles always run it.
+// ring_walk says which walk a ball needs.
 #if defined(BOUNCE_RING_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_STEPPER_INL_HPP
 #undef BOUNCE_RING_STEPPER_INL_HPP
@@ -34,7 +33,7 @@ template <class D, class Law, int R>
 class RingStepper final : public StagedStepper {
   using Columns = RingColumns<D, Law, R>;
   using Constants = typename Columns::Constants;
-  using Loop = RingLoop<Columns, true, 32>;
+  using Loop = RingLoop<Columns>;
   using Team = RingTeam<Columns, Loop>;
   using Tiles = RingTiles<Columns>;
   static constexpr size_t L = Columns::L;
@@ -42,11 +41,10 @@ class RingStepper final : public StagedStepper {
  public:
   /// `stages`: at most so many are taken while a tile is in cache. Fewer than most_ghosts are for
   /// measuring what that saves: 1 is a plain sweep through memory a stage.
-  RingStepper(const Problem& start, const RingShape& shape, int threads, bool free_flight,
+  RingStepper(const Problem& start, const RingShape& shape, int threads,
               size_t stages = most_ghosts)
       : StagedStepper(start),
         physics_(shape, start.law),
-        in_turns_(start, free_flight),
         columns_(static_cast<size_t>(shape.per_ring) / L),
         walk_(std::make_unique<Walk>(make_walk(columns_, static_cast<size_t>(threads), stages))) {
     RingStepper::write(start.initial);
@@ -58,7 +56,7 @@ class RingStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    std::visit([&](auto& walk) { walk.run(physics_, constants, in_turns_, steps); }, *walk_);
+    std::visit([&](auto& walk) { walk.run(physics_, constants, model().walls, steps); }, *walk_);
   }
 
   void read(State& state) const override {
@@ -66,7 +64,6 @@ class RingStepper final : public StagedStepper {
   }
 
   void write(const State& state) override {
-    in_turns_.forget();
     for_each_place(state, [](const double& value, double& place) { place = value; });
   }
 
@@ -101,7 +98,6 @@ class RingStepper final : public StagedStepper {
   }
 
   Columns physics_;
-  WallsInTurns in_turns_;
   size_t columns_;  // vectors a ring
   std::unique_ptr<Walk> walk_;
 };

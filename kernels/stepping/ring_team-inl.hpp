@@ -22,10 +22,7 @@
 //     thread's time, with one core for two threads fifty times as much. So the work is done in
 //     slices of a millisecond, by the team or by one thread (ring_loop-inl.hpp) as was faster of
 //     late; the bits are the same.
-//  5. A slice is cut where free flight (free_flight.hpp) begins or ends; the time taken is the
-//  whole
-//     slice's.
-//  6. Columns are swept in chunks whose reciprocals stay in L1 beside them.
+//  5. Columns are swept in chunks whose reciprocals stay in L1 beside them.
 //
 // Work beside the whole ball's: one column's bonds a tile, and two short sweeps.
 //
@@ -85,22 +82,18 @@ class RingTeam {
   /// Holds the columns between two calls of run().
   [[nodiscard]] Walk& walk() { return walk_; }
 
-  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
-           std::int64_t steps) {
+  void run(const Columns& physics, const std::vector<Constants>& constants,
+           const std::vector<Wall>& walls, std::int64_t steps) {
     using Clock = std::chrono::steady_clock;
     while (steps > 0) {
       const std::int64_t slice = std::min(steps, slice_);
       const int way = choice_.next();
       const auto start = Clock::now();
-      in_turns.advance(
-          slice, [&](const auto& walls, FlightSurvey& to) { walk_.survey(physics, walls, to); },
-          [&](const auto& walls, std::int64_t n) {
-            if (way == alone) {
-              walk_.step(physics, constants, walls, n);
-            } else {
-              run_together(physics, constants, walls, n);
-            }
-          });
+      if (way == alone) {
+        walk_.run(physics, constants, walls, slice);
+      } else {
+        run_together(physics, constants, walls, slice);
+      }
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       steps -= slice;
       if (4 * slice < slice_) continue;  // too short to tell
@@ -134,9 +127,8 @@ class RingTeam {
   };
   using Told = const double * [Walk::told];
 
-  template <class Walls>
   HWY_NOINLINE void run_together(const Columns& physics, const std::vector<Constants>& constants,
-                                 const Walls& walls, std::int64_t steps) {
+                                 const std::vector<Wall>& walls, std::int64_t steps) {
     const size_t tiles = tiles_.size();
     std::vector<Mailbox> boxes(tiles);
     for (size_t t = 0; t < tiles; ++t) {
@@ -203,34 +195,33 @@ class RingTeam {
   }
 
   // One stage of tile t.
-  template <class Walls>
-  HWY_INLINE void pass(const Columns& physics, const Constants& c, const Walls& walls, size_t t,
-                       const std::vector<Mailbox>& boxes, std::int64_t stage) {
+  HWY_INLINE void pass(const Columns& physics, const Constants& c, const std::vector<Wall>& walls,
+                       size_t t, const std::vector<Mailbox>& boxes, std::int64_t stage) {
     Tile& tile = tiles_[t];
     const size_t last = tile.size() - 1;
     double* u = tile.u.data();
     double* u_before = u + chunk * Columns::terms;
     double* u_first = u_before + Columns::terms;
-    V nearest = Columns::far_away();
     Column left, left_of_first;
+    V lowest = Columns::high_up();
     size_t k = 1;
     do {
       const size_t count = std::min(chunk, last - k);
       Columns::reciprocals(tile.column(k), count, u);
       if (k == 1) {
         Columns::reciprocals(tile.column(0), 1, u_first);
-        physics.template sums<Rest::keep>(c, walls, tile.column(0), 1, u_first, left, nearest);
+        physics.template sums<Rest::keep>(c, tile.column(0), 1, u_first, left, lowest);
       }
-      physics.template sums<Rest::finish>(c, walls, tile.column(k), count, u, left, nearest);
+      physics.template sums<Rest::finish>(c, tile.column(k), count, u, left, lowest);
       k += count;
     } while (k < last);
     fill_ghosts(t, boxes, stage);
     Columns::reciprocals(tile.column(last), 1, u);
     Columns::reciprocals(tile.before(), 1, u_before);
-    physics.template sums<Rest::finish>(c, walls, tile.column(last), 1, u, left, nearest);
-    physics.template sums<Rest::drop>(c, walls, tile.before(), 1, u_before, left_of_first, nearest);
-    physics.finish_kept(c, walls, tile.column(0), left_of_first, nearest);
-    Columns::mirror_at_walls(c, walls, tile.column(0), tile.size(), nearest);
+    physics.template sums<Rest::finish>(c, tile.column(last), 1, u, left, lowest);
+    physics.template sums<Rest::drop>(c, tile.before(), 1, u_before, left_of_first, lowest);
+    physics.finish_kept(c, tile.column(0), left_of_first, lowest);
+    Columns::meet_walls(c, walls, tile.column(0), tile.size(), lowest);
   }
 
   Walk walk_;

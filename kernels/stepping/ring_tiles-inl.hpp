@@ -75,9 +75,8 @@ class RingTile {
   }
 
   /// Takes `count` stages, 1 to ghosts(); `count` ghosts beside the tile must be filled.
-  template <class Walls>
   HWY_INLINE void advance(const Columns& physics, const Constants* const* stages, size_t count,
-                          const Walls& walls) {
+                          const std::vector<Wall>& walls) {
     const auto n = static_cast<std::ptrdiff_t>(size_);
     const auto last = static_cast<std::ptrdiff_t>(count) - 1;
     std::ptrdiff_t at[most_ghosts] = {};  // the next column of each stage
@@ -87,7 +86,7 @@ class RingTile {
       for (std::ptrdiff_t s = 0; s <= last; ++s) {
         const std::ptrdiff_t end = std::min(front - s, n + last - s);
         if (end <= at[s]) continue;
-        if (at[s] == s - last) start_left(physics, *stages[s], walls, at[s], left[s]);
+        if (at[s] == s - last) start_left(physics, *stages[s], at[s], left[s]);
         sweep(physics, *stages[s], walls, at[s], end, left[s]);
         at[s] = end;
       }
@@ -98,23 +97,21 @@ class RingTile {
   static constexpr auto chunk_columns = static_cast<std::ptrdiff_t>(chunk);
 
   // The left sums of column k, from the column before it.
-  template <class Walls>
-  HWY_INLINE void start_left(const Columns& physics, const Constants& c, const Walls& walls,
-                             std::ptrdiff_t k, Column& left) {
-    V nearest = Columns::far_away();
+  HWY_INLINE void start_left(const Columns& physics, const Constants& c, std::ptrdiff_t k,
+                             Column& left) {
+    V lowest = Columns::high_up();
     Columns::reciprocals(column(k - 1), 1, u_.data());
-    physics.template sums<Rest::drop>(c, walls, column(k - 1), 1, u_.data(), left, nearest);
+    physics.template sums<Rest::drop>(c, column(k - 1), 1, u_.data(), left, lowest);
   }
 
   // One stage of columns begin .. end - 1, at most a chunk and the ghosts.
-  template <class Walls>
-  HWY_INLINE void sweep(const Columns& physics, const Constants& c, const Walls& walls,
+  HWY_INLINE void sweep(const Columns& physics, const Constants& c, const std::vector<Wall>& walls,
                         std::ptrdiff_t begin, std::ptrdiff_t end, Column& left) {
     const auto count = static_cast<size_t>(end - begin);
-    V nearest = Columns::far_away();
+    V lowest = Columns::high_up();
     Columns::reciprocals(column(begin), count, u_.data());
-    physics.template sums<Rest::finish>(c, walls, column(begin), count, u_.data(), left, nearest);
-    Columns::mirror_at_walls(c, walls, column(begin), count, nearest);
+    physics.template sums<Rest::finish>(c, column(begin), count, u_.data(), left, lowest);
+    Columns::meet_walls(c, walls, column(begin), count, lowest);
   }
 
   size_t size_, ghosts_;
@@ -143,15 +140,8 @@ class RingTiles {
     return tiles_[t].column(static_cast<std::ptrdiff_t>(k - begins_[t]));
   }
 
-  void run(const Columns& physics, const std::vector<Constants>& constants, WallsInTurns& in_turns,
-           std::int64_t steps) {
-    in_turns.advance_walled(
-        steps, [&](const auto& walls, std::int64_t n) { step(physics, constants, walls, n); });
-  }
-
-  template <class Walls>
-  HWY_NOINLINE void step(const Columns& physics, const std::vector<Constants>& constants,
-                         const Walls& walls, std::int64_t steps) {
+  HWY_NOINLINE void run(const Columns& physics, const std::vector<Constants>& constants,
+                        const std::vector<Wall>& walls, std::int64_t steps) {
     const size_t tiles = tiles_.size(), ghosts = tiles_.front().ghosts();
     std::vector<Mailbox> boxes(tiles);
     for (size_t t = 0; t < tiles; ++t) {

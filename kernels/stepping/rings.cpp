@@ -15,10 +15,7 @@ namespace HWY_NAMESPACE {
 
 template <class Law>
 std::unique_ptr<Stepper> rings_of(const Problem& problem, const RingShape& shape, int threads) {
-  return with_walls(problem, [&]<class Walls>() -> std::unique_ptr<Stepper> {
-    return std::make_unique<RingsStepper<hn::ScalableTag<double>, Law, Walls>>(problem, shape,
-                                                                               threads);
-  });
+  return std::make_unique<RingsStepper<hn::ScalableTag<double>, Law>>(problem, shape, threads);
 }
 
 std::unique_ptr<Stepper> make_rings(const Problem& problem, const RingShape& shape, int threads) {

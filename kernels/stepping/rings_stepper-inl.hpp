@@ -54,9 +54,8 @@ namespace bounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// D: Highway's tag with the lanes to use. Law, Walls: the form the scene needs. Two rings at
-/// least.
-template <class D, class Law, class Walls>
+/// D: Highway's tag with the lanes to use. Law: the form the scene needs. Two rings at least.
+template <class D, class Law>
 class RingsStepper final : public StagedStepper {
   using V = hn::Vec<D>;
   static constexpr D d{};
@@ -82,7 +81,6 @@ class RingsStepper final : public StagedStepper {
   HWY_NOINLINE void run(std::span<const StageConstants> stages, std::int64_t steps) override {
     std::vector<Constants> constants;
     for (const StageConstants& stage : stages) constants.push_back(make_constants(stage));
-    const Walls walls(model().walls);
     const std::int64_t passes = steps * static_cast<std::int64_t>(constants.size());
     for (Tile& tile : tiles_) tell(tile, 0);
     std::optional<SpinBarrier> barrier;
@@ -96,7 +94,7 @@ class RingsStepper final : public StagedStepper {
       for (std::int64_t n = 0; n < passes; ++n) {
         const Constants& c = constants[static_cast<size_t>(n) % constants.size()];
         for (size_t t = me; t < tiles_.size(); t += team) {
-          pass(c, walls, t, static_cast<size_t>(n & 1));
+          pass(c, t, static_cast<size_t>(n & 1));
           tell(tiles_[t], static_cast<size_t>((n + 1) & 1));
         }
         barrier->meet(n + 1);
@@ -173,23 +171,17 @@ class RingsStepper final : public StagedStepper {
   }
 
   // One stage of tile t.
-  HWY_INLINE void pass(const Constants& c, const Walls& walls, size_t t, size_t parity) {
+  HWY_INLINE void pass(const Constants& c, size_t t, size_t parity) {
     const size_t tiles = tiles_.size();
     Tile& tile = tiles_[t];
     take(tiles_[(t + tiles - 1) % tiles].last[parity], t == 0 ? -1 : 0, tile.before);
     take(tiles_[(t + 1) % tiles].first[parity], t + 1 == tiles ? 1 : 0, tile.behind);
-    V nearest = hn::Set(d, hwy::HighestValue<double>());
-    walk_column<false>(c, walls, tile.before.data(), column(tile.begin), tile.left.data(), nearest);
+    walk_column<false>(c, tile.before.data(), column(tile.begin), tile.left.data());
     for (size_t k = tile.begin; k < tile.end; ++k) {
       double* here = column(k);
       const double* next = k + 1 < tile.end ? column(k + 1) : tile.behind.data();
-      nearest = hn::Set(d, hwy::HighestValue<double>());
-      walk_column<true>(c, walls, here, next, tile.left.data(), nearest);
-      if constexpr (Walls::any) {
-        if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Gt(nearest, walls.threshold(d))))) {
-          mirror_column(c, walls, here);
-        }
-      }
+      walk_column<true>(c, here, next, tile.left.data());
+      if (HWY_UNLIKELY(!in_front(here))) mirror_column(c, here);
     }
   }
 
@@ -209,21 +201,21 @@ class RingsStepper final : public StagedStepper {
   // here and goes with those that lead to the next column. With `moves` the column is moved;
   // without, it is another tile's and only what leads on is wanted.
   template <bool moves>
-  HWY_INLINE void walk_column(const Constants& c, const Walls& walls, double* here,
-                              const double* next, double* left, V& nearest) const {
+  HWY_INLINE void walk_column(const Constants& c, double* here, const double* next,
+                              double* left) const {
     Carried now;
     start(c, here, next, now);
     size_t r = 0;
     for (; r + 2 < rings_; r += 2) {
-      walk_ring<0, moves>(c, walls, r, here, next, left, now, nearest);
-      walk_ring<1, moves>(c, walls, r + 1, here, next, left, now, nearest);
+      walk_ring<0, moves>(c, r, here, next, left, now);
+      walk_ring<1, moves>(c, r + 1, here, next, left, now);
     }
-    if (r + 1 < rings_) walk_ring<0, moves>(c, walls, r++, here, next, left, now, nearest);
+    if (r + 1 < rings_) walk_ring<0, moves>(c, r++, here, next, left, now);
     const Bond along(now.x, now.y, now.next_x, now.next_y);
     V u;
     reciprocals_of<1>(&along.r2, &u);
     add_along(c, r, along, u, now);
-    finish<moves>(c, walls, r, here, left, now, nearest);
+    finish<moves>(c, r, here, left, now);
   }
 
   static HWY_INLINE void load_ring(const double* here, const double* next, Carried& to) {
@@ -258,8 +250,8 @@ class RingsStepper final : public StagedStepper {
 
   // Ring r, of this parity, which is not the outermost.
   template <int parity, bool moves>
-  HWY_INLINE void walk_ring(const Constants& c, const Walls& walls, size_t r, double* here,
-                            const double* next, double* left, Carried& now, V& nearest) const {
+  HWY_INLINE void walk_ring(const Constants& c, size_t r, double* here, const double* next,
+                            double* left, Carried& now) const {
     Carried outer;
     load_ring(here + (r + 1) * step, next + (r + 1) * step, outer);
     outer.on_x = hn::Set(d, c.gx);
@@ -284,14 +276,14 @@ class RingsStepper final : public StagedStepper {
     from.rest_y = hn::MulAdd(f, diagonal.dy, from.rest_y);
     to.on_x = hn::NegMulAdd(f, diagonal.dx, to.on_x);
     to.on_y = hn::NegMulAdd(f, diagonal.dy, to.on_y);
-    finish<moves>(c, walls, r, here, left, now, nearest);
+    finish<moves>(c, r, here, left, now);
     now = outer;
   }
 
   // Moves ring r, and leaves its sums for the next column.
   template <bool moves>
-  HWY_INLINE void finish(const Constants& c, const Walls& walls, size_t r, double* here,
-                         double* left, const Carried& now, V& nearest) const {
+  HWY_INLINE void finish(const Constants& c, size_t r, double* here, double* left,
+                         const Carried& now) const {
     double* from_left = left + r * 2 * L;
     if constexpr (moves) {
       double* at = here + r * step;
@@ -304,18 +296,23 @@ class RingsStepper final : public StagedStepper {
       hn::Store(y, d, at + L);
       hn::Store(vx, d, at + 2 * L);
       hn::Store(vy, d, at + 3 * L);
-      if constexpr (Walls::any) nearest = hn::Min(walls.distance(d, x, y), nearest);
     }
     hn::Store(now.on_x, d, from_left);
     hn::Store(now.on_y, d, from_left + L);
   }
 
-  HWY_NOINLINE void mirror_column(const Constants& c, const Walls& walls, double* here) const {
-    const V drift = hn::Set(d, c.drift);
+  // Whether all particles of a column are in front of all walls.
+  [[nodiscard]] HWY_INLINE bool in_front(const double* here) const {
+    return all_in_front(d, model().walls, rings_, [here](size_t r) {
+      const double* x = here + r * step;
+      return Place{x, x + L};
+    });
+  }
+
+  HWY_NOINLINE void mirror_column(const Constants& c, double* here) const {
     for (size_t r = 0; r < rings_; ++r) {
       double* x = here + r * step;
-      if (hn::AllTrue(d, walls.clear(d, hn::Load(d, x), hn::Load(d, x + L)))) continue;
-      walls.mirror(d, drift, x, x + L, x + 2 * L, x + 3 * L);
+      meet_walls(d, model().walls, hn::Set(d, c.drift), x, x + L, x + 2 * L, x + 3 * L);
     }
   }
 

@@ -48,12 +48,6 @@ std::string describe(WallForm form) {
   return "any number in any direction";
 }
 
-void leave_out_free_flight(const Model& model, const PlanRequest& request, Plan& plan) {
-  if (model.walls.empty() || !request.free_flight) return;
-  plan.free_flight = true;
-  plan.left_out.emplace_back("wall test while no particle can reach a wall");
-}
-
 std::vector<std::string> left_out(LawForm law, WallForm walls) {
   std::vector<std::string> names;
   if (law != LawForm::two_four && law != LawForm::general) names.emplace_back("square root");

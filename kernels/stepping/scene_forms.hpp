@@ -18,10 +18,6 @@ enum class WallForm { none, floor, any };  ///< floor: one wall with normal (0, 
 WallForm wall_form(const Model& model);
 std::string describe(WallForm form);
 
-/// For kernels that leave out the wall test in free flight: has the plan say so, unless there are
-/// no walls or the request wants the test always.
-void leave_out_free_flight(const Model& model, const PlanRequest& request, Plan& plan);
-
 /// What code of these forms does not contain, for people.
 std::vector<std::string> left_out(LawForm law, WallForm walls);
 

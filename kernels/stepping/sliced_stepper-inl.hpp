@@ -28,7 +28,6 @@
 #include "kernels/stepping/slices.hpp"
 #include "kernels/stepping/spin.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
-#include "kernels/stepping/survey_sums-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -77,7 +76,7 @@ HWY_INLINE void load_neighbours(D d, const SlicedBonds& bonds, const SliceEntry&
 /// Physics: constructed from the problem; `slice(table, bonds, slice, at, x, y, store, nx, ny)`
 /// moves the particles from `at` on, reading all positions in x, y and writing their new ones to
 /// nx, ny; `mirror_at_walls(table, at, vectors, store, nx, ny)` follows after some slices, so that
-/// nothing need be called among them; not in free flight and not without walls.
+/// nothing need be called among them.
 template <class Physics>
 class SlicedStepper final : public StagedStepper {
   using D = typename Physics::D;
@@ -85,14 +84,12 @@ class SlicedStepper final : public StagedStepper {
   static constexpr size_t chunk = 64;  // slices; what they moved is in L1 when walls are looked at
 
  public:
-  SlicedStepper(const Problem& start, int threads, bool free_flight)
+  SlicedStepper(const Problem& start, int threads)
       : StagedStepper(start),
         physics_(model()),
         bonds_(slice_bonds(start.bonds, static_cast<int>(L))),
         store_(start.initial.size()),
         threads_(threads) {
-    // A plan may serve its problem with the walls taken away, too.
-    if (free_flight && !start.walls.empty()) turns_.emplace(start);
     SlicedStepper::write(start.initial);
   }
 
@@ -102,26 +99,19 @@ class SlicedStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       tables.emplace_back(bonds_, physics_.scaled() ? stage : unscaled(stage));
     }
-    if (!turns_) return step(tables, !model().walls.empty(), steps);
-    turns_->advance(
-        steps, [&](FlightSurvey& to) { survey(to); },
-        [&](std::int64_t n, bool free) { step(tables, !free, n); });
+    step(tables, steps);
   }
 
   void read(State& state) const override { store_.read(state); }
 
-  void write(const State& state) override {
-    if (turns_) turns_->forget();
-    store_.write(state);
-  }
+  void write(const State& state) override { store_.write(state); }
 
  private:
-  HWY_NOINLINE void step(const std::vector<CombinationTable>& tables, bool walls,
-                         std::int64_t steps) {
+  HWY_NOINLINE void step(const std::vector<CombinationTable>& tables, std::int64_t steps) {
     const size_t count = bonds_.slices.size();
     const std::int64_t passes = steps * static_cast<std::int64_t>(tables.size());
     if (threads_ == 1) {
-      for (std::int64_t n = 0; n < passes; ++n) pass(tables, walls, n, 0, count);
+      for (std::int64_t n = 0; n < passes; ++n) pass(tables, n, 0, count);
     } else {
       std::optional<SpinBarrier> barrier;
 #pragma omp parallel num_threads(threads_)
@@ -131,42 +121,12 @@ class SlicedStepper final : public StagedStepper {
 #pragma omp single
         barrier.emplace(static_cast<int>(team));
         for (std::int64_t n = 0; n < passes; ++n) {
-          pass(tables, walls, n, count * me / team, count * (me + 1) / team);
+          pass(tables, n, count * me / team, count * (me + 1) / team);
           barrier->meet(n + 1);
         }
       }
     }
     store_.current ^= static_cast<int>(passes & 1);
-  }
-
-  // Bonds by combination, whose lanes are then dealt to their classes; padding repeats a particle.
-  HWY_NOINLINE void survey(FlightSurvey& to) const {
-    constexpr D d{};
-    const double* x = store_.x[store_.current].data();
-    const double* y = store_.y[store_.current].data();
-    std::vector<Span> seen(bonds_.combinations.size());
-    SurveySums<D> sums(model().walls);
-    for (size_t s = 0; s < bonds_.slices.size(); ++s) {
-      const auto px = hn::Load(d, x + s * L), py = hn::Load(d, y + s * L);
-      sums.add(px, py, hn::Load(d, store_.vx.data() + s * L),
-               hn::Load(d, store_.vy.data() + s * L));
-      const Slice& slice = bonds_.slices[s];
-      for (std::int32_t k = 0; k < slice.all; ++k) {
-        const SliceEntry& entry = bonds_.entries[static_cast<size_t>(slice.begin + k)];
-        hn::Vec<D> nx, ny;
-        load_neighbours(d, bonds_, entry, x, y, nx, ny);
-        const auto dx = hn::Sub(px, nx), dy = hn::Sub(py, ny);
-        HWY_ALIGN double r2[L];
-        hn::Store(hn::MulAdd(dy, dy, hn::Mul(dx, dx)), d, r2);
-        Span* lanes = seen.data() + static_cast<size_t>(entry.combination) * L;
-        for (size_t l = 0; l < L; ++l) lanes[l].add(r2[l]);
-      }
-    }
-    sums.add_to(to);
-    for (size_t i = 0; i < seen.size(); ++i) {
-      const int bond_class = bonds_.combinations[i];
-      if (bond_class != no_bond) to.r2[static_cast<size_t>(bond_class)].add(seen[i]);
-    }
   }
 
   // strict multiplies by dt after it has summed, as the listing does.
@@ -176,8 +136,8 @@ class SlicedStepper final : public StagedStepper {
     return stage;
   }
 
-  HWY_INLINE void pass(const std::vector<CombinationTable>& tables, bool walls, std::int64_t n,
-                       size_t begin, size_t end) {
+  HWY_INLINE void pass(const std::vector<CombinationTable>& tables, std::int64_t n, size_t begin,
+                       size_t end) {
     const CombinationTable& table = tables[static_cast<size_t>(n) % tables.size()];
     const int from = store_.current ^ static_cast<int>(n & 1);
     const double* x = store_.x[from].data();
@@ -189,7 +149,7 @@ class SlicedStepper final : public StagedStepper {
       for (size_t i = s; i < chunk_end; ++i) {
         physics_.slice(table, bonds_, bonds_.slices[i], i * L, x, y, store_, new_x, new_y);
       }
-      if (walls) physics_.mirror_at_walls(table, s * L, chunk_end - s, store_, new_x, new_y);
+      physics_.mirror_at_walls(table, s * L, chunk_end - s, store_, new_x, new_y);
     }
   }
 
@@ -197,7 +157,6 @@ class SlicedStepper final : public StagedStepper {
   SlicedBonds bonds_;
   ParticleStore store_;
   int threads_;
-  std::optional<FlightTurns> turns_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

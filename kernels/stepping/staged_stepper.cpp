@@ -79,15 +79,13 @@ State StagedStepper::state() const {
 }
 
 Snapshot StagedStepper::save() const {
-  Snapshot snapshot{State(particles_), stage_held_, step_, {}};
+  Snapshot snapshot{State(particles_), stage_held_, step_};
   read(snapshot.state);
-  snapshot.low = read_low();
   return snapshot;
 }
 
 void StagedStepper::restore(const Snapshot& snapshot) {
   write(snapshot.state);
-  if (snapshot.low.size() > 0) write_low(snapshot.low);
   stage_held_ = snapshot.stage_held;
   step_ = snapshot.step;
 }

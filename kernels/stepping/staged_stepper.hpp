@@ -41,9 +41,6 @@ class StagedStepper : public Stepper {
   virtual void run(std::span<const StageConstants> stages, std::int64_t steps) = 0;
   virtual void read(State& state) const = 0;
   virtual void write(const State& state) = 0;
-  /// Low parts, of kernels that have any. write() comes before write_low().
-  [[nodiscard]] virtual State read_low() const { return {}; }
-  virtual void write_low(const State& /*low*/) {}
   [[nodiscard]] const Model& model() const { return model_; }
 
  private:

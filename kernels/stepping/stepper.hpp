@@ -12,7 +12,6 @@ struct Snapshot {
   State state;
   bool stage_held = false;        ///< the last stage of the last step is still due (method.hpp)
   std::int64_t step = 0;          ///< steps taken
-  State low = {};                 ///< what the state's doubles do not hold (Precision), or empty
   std::int64_t flies_until = -1;  ///< of located.hpp: step up to which no wall is near; -1: one is
 };
 
@@ -22,7 +21,7 @@ class Stepper {
   virtual ~Stepper() = default;
   /// Takes `steps` steps. advance(a) then advance(b) gives the bits of advance(a + b).
   virtual void advance(std::int64_t steps) = 0;
-  /// Positions and velocities at the current step, all its stages done; low parts are rounded away.
+  /// Positions and velocities at the current step, all its stages done.
   [[nodiscard]] virtual State state() const = 0;
   /// For going back or going on elsewhere; restore() accepts any kernel's snapshot of this problem.
   [[nodiscard]] virtual Snapshot save() const = 0;

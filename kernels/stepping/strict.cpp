@@ -122,7 +122,7 @@ class StrictPhysics {
 };
 
 std::unique_ptr<Stepper> make_strict(const Problem& problem, int threads) {
-  return std::make_unique<SlicedStepper<StrictPhysics>>(problem, threads, false);
+  return std::make_unique<SlicedStepper<StrictPhysics>>(problem, threads);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -3,11 +3,16 @@
 // resolved, given back the part of the drift that it spent behind the wall. Not-a-number is not
 // mirrored.
 //
-// A step tests, unless a bound says that nothing can be found (free_flight.hpp); only a vector with
-// a particle behind a wall is mirrored, out of line. So alpha, beta and the rule cost nothing while
-// nothing touches, and no instantiation depends on them. The resolved rule knows where a particle
-// rests by its state alone: on the wall, without velocity. It needs no memory of contacts, so a
-// state is still positions and velocities, and restarts as such.
+// After a sweep each wall is looked at in one more pass over what was moved, while that is in L1;
+// for a floor a kernel may do with a minimum taken within its sweep.
+// Only a vector with a particle behind a wall is reflected, out of line. So alpha, beta and the rule
+// cost nothing while nothing touches, and no kernel is compiled for its walls. The resolved rule
+// knows where a particle rests by its state alone: on the wall, without velocity. It needs no memory
+// of contacts, so a state is still positions and velocities, and restarts as such.
+//
+// Not taken: the test of each particle within the sweep, compiled for the kind of walls (two walls
+// cost more, and there are three forms to compile); a proof
+// for how many steps nobody can reach a wall, and no test in these (verify/README.md, "tried").
 #if defined(BOUNCE_VECTOR_WALLS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_VECTOR_WALLS_INL_HPP
 #undef BOUNCE_VECTOR_WALLS_INL_HPP
@@ -26,20 +31,18 @@ namespace bounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A wall, in vectors: the same one in all lanes, or each lane its own. resolved: 1 or 0.
+/// A wall's numbers, the same in all lanes.
 template <class V>
-struct alignas(64) WallVectors {
-  V nx, ny, offset, alpha, beta, resolved;
-};
+struct WallVectors {
+  V nx, ny, offset, alpha, beta;
 
-template <class D>
-HWY_INLINE WallVectors<hn::Vec<D>> in_all_lanes(D d, const Wall& wall) {
-  const auto all = [d](double value)
-                       HWY_ATTR { return hn::Set(d, static_cast<hn::TFromD<D>>(value)); };
-  return {all(wall.normal.x), all(wall.normal.y),
-          all(wall.offset),   all(wall.alpha),
-          all(wall.beta),     all(wall.contact == Contact::resolved ? 1.0 : 0.0)};
-}
+  HWY_INLINE WallVectors(hn::DFromV<V> d, const Wall& wall)
+      : nx(hn::Set(d, wall.normal.x)),
+        ny(hn::Set(d, wall.normal.y)),
+        offset(hn::Set(d, wall.offset)),
+        alpha(hn::Set(d, wall.alpha)),
+        beta(hn::Set(d, wall.beta)) {}
+};
 
 /// The distance of points from a wall, cm.
 template <class V>
@@ -64,119 +67,122 @@ HWY_INLINE WallAnswer<V> mirror_answer(const WallVectors<V>& wall, V distance) {
 template <class V>
 HWY_INLINE WallAnswer<V> resolved_answer(const WallVectors<V>& wall, V distance, V moved, V drift,
                                          V size) {
-  using T = hn::TFromV<V>;
   const hn::DFromV<V> d;
-  const V zero = hn::Zero(d), one = hn::Set(d, T{1});
-  const V slack = hn::Mul(hn::Set(d, T{resting_slack}), hn::Add(size, hn::Abs(wall.offset)));
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V slack = hn::Mul(hn::Set(d, resting_slack), hn::Add(size, hn::Abs(wall.offset)));
   const auto resting = hn::And(hn::And(hn::Eq(wall.beta, zero), hn::Lt(wall.alpha, one)),
                                hn::Le(hn::Sub(distance, moved), slack));
   const V alpha = hn::IfThenElse(resting, zero, wall.alpha);
   const V part = hn::Div(distance, moved);
   // Not above 0, or not a number, where the drift did not lead into the wall.
   const V behind =
-      hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, hn::Set(d, T{most_part_behind})), zero);
+      hn::IfThenElse(hn::Gt(part, zero), hn::Min(part, hn::Set(d, most_part_behind)), zero);
   return {hn::Mul(hn::Sub(one, wall.beta), distance), alpha,
           hn::Mul(hn::Mul(behind, drift), hn::Sub(alpha, one))};
 }
 
 /// What a vector of particles at (x, y) does at one wall, after a drift of `drift` (s).
-template <class D, class V = hn::Vec<D>, class T = hn::TFromD<D>>
-HWY_NOINLINE void reflect(D d, const WallVectors<V>& wall, V drift, T* x, T* y, T* vx, T* vy) {
+template <class D, class V = hn::Vec<D>>
+HWY_NOINLINE void reflect(D d, const Wall& wall, V drift, double* x, double* y, double* vx,
+                          double* vy) {
+  const WallVectors<V> w(d, wall);
   const V px = hn::Load(d, x), py = hn::Load(d, y);
   const V ux = hn::Load(d, vx), uy = hn::Load(d, vy);
-  const V distance = distance_from(wall, px, py);
+  const V distance = distance_from(w, px, py);
   // Not-a-number stays where it is, whatever stands beside it in the vector; a stage that steps
   // back meets no wall.
   const V zero = hn::Zero(d);
   const auto clear = hn::Or(hn::Not(hn::Le(distance, zero)), hn::Lt(drift, zero));
-  const V normal_speed = hn::MulAdd(wall.nx, ux, hn::Mul(wall.ny, uy));
-  const V tx = hn::NegMulAdd(normal_speed, wall.nx, ux);
-  const V ty = hn::NegMulAdd(normal_speed, wall.ny, uy);
-  WallAnswer<V> answer = mirror_answer(wall, distance);
+  const V normal_speed = hn::MulAdd(w.nx, ux, hn::Mul(w.ny, uy));
+  const V tx = hn::NegMulAdd(normal_speed, w.nx, ux);
+  const V ty = hn::NegMulAdd(normal_speed, w.ny, uy);
+  WallAnswer<V> answer = mirror_answer(w, distance);
   V rest_x = px, rest_y = py;
-  const auto resolved = hn::Gt(wall.resolved, zero);
-  if (!hn::AllFalse(d, resolved)) {
+  if (wall.contact != Contact::listing) {
     const V moved = hn::Mul(drift, normal_speed), size = hn::Add(hn::Abs(px), hn::Abs(py));
-    const WallAnswer<V> other = resolved_answer(wall, distance, moved, drift, size);
-    answer.lift = hn::IfThenElse(resolved, other.lift, answer.lift);
-    answer.alpha = hn::IfThenElse(resolved, other.alpha, answer.alpha);
-    rest_x = hn::IfThenElse(resolved, hn::MulAdd(other.back, tx, px), px);
-    rest_y = hn::IfThenElse(resolved, hn::MulAdd(other.back, ty, py), py);
+    answer = resolved_answer(w, distance, moved, drift, size);
+    rest_x = hn::MulAdd(answer.back, tx, px);
+    rest_y = hn::MulAdd(answer.back, ty, py);
   }
-  const V after = hn::Mul(wall.beta, normal_speed);
-  const V new_x = hn::NegMulAdd(answer.lift, wall.nx, rest_x);
-  const V new_y = hn::NegMulAdd(answer.lift, wall.ny, rest_y);
-  const V new_vx = hn::MulAdd(answer.alpha, tx, hn::Mul(after, wall.nx));
-  const V new_vy = hn::MulAdd(answer.alpha, ty, hn::Mul(after, wall.ny));
+  const V after = hn::Mul(w.beta, normal_speed);
+  const V new_x = hn::NegMulAdd(answer.lift, w.nx, rest_x);
+  const V new_y = hn::NegMulAdd(answer.lift, w.ny, rest_y);
+  const V new_vx = hn::MulAdd(answer.alpha, tx, hn::Mul(after, w.nx));
+  const V new_vy = hn::MulAdd(answer.alpha, ty, hn::Mul(after, w.ny));
   hn::Store(hn::IfThenElse(clear, px, new_x), d, x);
   hn::Store(hn::IfThenElse(clear, py, new_y), d, y);
   hn::Store(hn::IfThenElse(clear, ux, new_vx), d, vx);
   hn::Store(hn::IfThenElse(clear, uy, new_vy), d, vy);
 }
 
-/// The same at all walls, one wall after another.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void reflect(D d, const std::vector<Wall>& walls, V drift, double* x, double* y,
-                        double* vx, double* vy) {
-  for (const Wall& wall : walls) reflect(d, in_all_lanes(d, wall), drift, x, y, vx, vy);
+/// Where the coordinates of a vector of particles stand.
+struct Place {
+  const double *x, *y;
+};
+
+/// The least of value(k, j) over 0 <= k < count and 0 <= j < width, lane by lane, not-a-number
+/// apart: `width` minima that do not wait for each other.
+template <size_t width, class D, class Value>
+HWY_INLINE hn::Vec<D> least(D d, size_t count, const Value& value) {
+  hn::Vec<D> found[width];
+  for (size_t j = 0; j < width; ++j) found[j] = hn::Set(d, hwy::HighestValue<double>());
+  for (size_t k = 0; k < count; ++k) {
+    for (size_t j = 0; j < width; ++j) found[j] = hn::Min(value(k, j), found[j]);
+  }
+  for (size_t j = 1; j < width; ++j) found[0] = hn::Min(found[j], found[0]);
+  return found[0];
 }
 
-/// No wall in the scene: no test.
-struct NoWalls {
-  static constexpr bool any = false;
-  explicit NoWalls(const std::vector<Wall>&) {}
-};
+/// Whether the particle that is nearest to the wall is the lowest one.
+inline bool is_floor(const Wall& wall) { return wall.normal.x == 0.0 && wall.normal.y > 0.0; }
 
-/// One wall with normal (0, 1): one comparison a vector.
-struct Floor {
-  static constexpr bool any = true;
-  explicit Floor(const std::vector<Wall>& all) : walls(all) {}
-  template <class D, class V>
-  HWY_INLINE hn::Mask<D> clear(D d, V, V y) const {
-    return hn::Gt(y, threshold(d));
-  }
-  /// No nearer than threshold() is a particle that must be mirrored.
-  template <class D, class V>
-  HWY_INLINE V distance(D, V, V y) const {
-    return y;
-  }
-  template <class D>
-  HWY_INLINE hn::Vec<D> threshold(D d) const {
-    return hn::Set(d, static_cast<hn::TFromD<D>>(walls[0].offset));
-  }
-  template <class D>
-  void mirror(D d, hn::Vec<D> drift, double* x, double* y, double* vx, double* vy) const {
-    reflect(d, walls, drift, x, y, vx, vy);
-  }
-  const std::vector<Wall>& walls;
-};
+/// Whether what stands at these heights, cm, is in front of a floor.
+template <class D>
+HWY_INLINE bool above(D d, const Wall& floor, hn::Vec<D> heights) {
+  const WallVectors<hn::Vec<D>> w(d, floor);
+  return hn::AllTrue(d, hn::Gt(hn::MulSub(w.ny, heights, w.offset), hn::Zero(d)));
+}
 
-/// Any number of walls in any direction.
-struct AnyWalls {
-  static constexpr bool any = true;
-  explicit AnyWalls(const std::vector<Wall>& all) : walls(all) {}
-  template <class D, class V>
-  HWY_INLINE hn::Mask<D> clear(D d, V x, V y) const {
-    return hn::Gt(distance(d, x, y), threshold(d));
+/// Whether all particles are in front of a wall; not-a-number counts as in front. place(k, j) is
+/// where vector j, 0 .. width - 1, of group k, 0 .. count - 1, stands.
+template <size_t width, class D, class PlaceOf>
+HWY_INLINE bool in_front(D d, const Wall& wall, size_t count, const PlaceOf& place) {
+  if (is_floor(wall)) {
+    const auto height = [=](size_t k, size_t j) HWY_ATTR { return hn::Load(d, place(k, j).y); };
+    return above(d, wall, least<width>(d, count, height));
   }
-  template <class D, class V>
-  HWY_INLINE V distance(D d, V x, V y) const {
-    V nearest = distance_from(in_all_lanes(d, walls[0]), x, y);
-    for (size_t w = 1; w < walls.size(); ++w) {
-      nearest = hn::Min(distance_from(in_all_lanes(d, walls[w]), x, y), nearest);
+  const WallVectors<hn::Vec<D>> w(d, wall);
+  const auto distance = [=](size_t k, size_t j) HWY_ATTR {
+    const Place at = place(k, j);
+    return distance_from(w, hn::Load(d, at.x), hn::Load(d, at.y));
+  };
+  return hn::AllTrue(d, hn::Gt(least<width>(d, count, distance), hn::Zero(d)));
+}
+
+/// Whether `vectors` vectors are in front of all walls; place(k) is where vector k stands.
+template <class D, class PlaceOf>
+HWY_INLINE bool all_in_front(D d, const std::vector<Wall>& walls, size_t vectors,
+                             const PlaceOf& place) {
+  constexpr size_t width = 4;
+  const size_t groups = vectors / width;
+  const auto in_groups = [&place](size_t k, size_t j) { return place(k * width + j); };
+  const auto rest = [&place, groups](size_t k, size_t) { return place(groups * width + k); };
+  for (const Wall& wall : walls) {
+    if (HWY_UNLIKELY(!(in_front<width>(d, wall, groups, in_groups) &&
+                       in_front<1>(d, wall, vectors % width, rest)))) {
+      return false;
     }
-    return nearest;
   }
-  template <class D>
-  HWY_INLINE hn::Vec<D> threshold(D d) const {
-    return hn::Zero(d);
-  }
-  template <class D>
-  void mirror(D d, hn::Vec<D> drift, double* x, double* y, double* vx, double* vy) const {
-    reflect(d, walls, drift, x, y, vx, vy);
-  }
-  const std::vector<Wall>& walls;
-};
+  return true;
+}
+
+/// One vector of particles at all walls, one wall after another, if one of them is behind one.
+template <class D>
+HWY_INLINE void meet_walls(D d, const std::vector<Wall>& walls, hn::Vec<D> drift, double* x,
+                           double* y, double* vx, double* vy) {
+  if (all_in_front(d, walls, 1, [=](size_t) { return Place{x, y}; })) return;
+  for (const Wall& wall : walls) reflect(d, wall, drift, x, y, vx, vy);
+}
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE

@@ -26,9 +26,8 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
   const fs::path at = folder_ / "runs/example-1-accuracy";
   const std::string csv = contents(at / "accuracy.csv");
   EXPECT_NE(csv.find("\nreference,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\nlisting,listing,double,1e-06,,100000,100000,mirror,"), std::string::npos)
-      << csv;
-  EXPECT_NE(csv.find("\nleapfrog,resolved,double,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nlisting,listing,1e-06,,100000,100000,mirror,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nleapfrog,resolved,"), std::string::npos) << csv;
   EXPECT_EQ(contents(at / "table.txt") + "\nfiles: runs/example-1-accuracy\n", out());
   EXPECT_NE(out().find("times sooner"), std::string::npos) << out();
   EXPECT_NE(contents(at / "origin.json").find("\"oracle_seconds\": "), std::string::npos);
@@ -40,36 +39,25 @@ TEST_F(DriverAccuracyTest, WritesItsDirectory) {
 TEST_F(DriverAccuracyTest, HasTheBaselinesBesideTheMethods) {
   ASSERT_EQ(run(impact + "--methods conservative,gsl-rkf45 --quick"), 0) << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
-  for (const char* row : {"\nconservative,listing,double,", "\nconservative,resolved,double,",
-                          ",1e-04,", "\ngsl-rkf45,located,double,", ",1e-06,", ",baseline,"}) {
+  for (const char* row : {"\nconservative,listing,", "\nconservative,resolved,", ",1e-04,",
+                          "\ngsl-rkf45,located,", ",1e-06,", ",baseline,"}) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
   EXPECT_EQ(csv.find("\nleapfrog,"), std::string::npos) << csv;
 }
 
-// Double for all methods; compensated and single beside it for the simplest and the highest order.
-TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
+TEST_F(DriverAccuracyTest, HasTheContactsOfEachMethod) {
   ASSERT_EQ(run(impact + "--methods leapfrog,yoshida-4,blanes-moan-6 --quick"), 0) << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
-  for (const char* row :
-       {"\nleapfrog,listing,double,", "\nleapfrog,resolved,double,",
-        "\nleapfrog,resolved,compensated,", "\nleapfrog,listing,single,",
-        "\nblanes-moan-6,resolved,compensated,", "\nblanes-moan-6,listing,single,",
-        "\nyoshida-4,resolved,double,", "\nyoshida-4,located,double,", "\nleapfrog,located,double,",
-        ",ring,", ",mirror,"}) {
+  for (const char* row : {"\nleapfrog,listing,", "\nleapfrog,resolved,", "\nleapfrog,located,",
+                          "\nyoshida-4,resolved,", "\nyoshida-4,located,", ",mirror,"}) {
     EXPECT_NE(csv.find(row), std::string::npos) << row << csv;
   }
-  for (const char* row : {"\nyoshida-4,resolved,compensated,", "\nyoshida-4,listing,",
-                          "\nleapfrog,listing,compensated,", ",resolved,single,",
-                          ",located,compensated,", ",located,single,"}) {
-    EXPECT_EQ(csv.find(row), std::string::npos) << row << csv;
-  }
-  // Half of the 1.5 decades where there are many evaluations.
-  EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,double,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,compensated,"), 3) << csv;
-  EXPECT_EQ(count(csv, "\nleapfrog,resolved,compensated,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nyoshida-4,located,double,"), 3) << csv;
+  EXPECT_EQ(csv.find("\nyoshida-4,listing,"), std::string::npos) << csv;
+  // Half of the 1.5 decades where contacts are located and there are many evaluations.
+  EXPECT_EQ(count(csv, "\nblanes-moan-6,resolved,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nleapfrog,located,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nyoshida-4,located,"), 3) << csv;
 }
 
 // Between two looks a particle may come to an elastic floor and leave it. Before that the method
@@ -77,44 +65,39 @@ TEST_F(DriverAccuracyTest, HasThePrecisionsOfAFewMethods) {
 // least.
 TEST_F(DriverAccuracyTest, ComparesPlacesBeforeTheFirstBounce) {
   ASSERT_EQ(run(impact + "--set wall.alpha=1 --set wall.beta=-1 --methods blanes-moan-6 --contacts "
-                         "resolved --precisions double --quick --every 0.002"),
+                         "resolved --quick --every 0.002"),
             0)
       << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
   std::istringstream row(csv.substr(csv.rfind("\nblanes-moan-6,") + 1));
   std::string field;
-  for (int k = 0; k < 10; ++k) std::getline(row, field, ',');  // to error_position
+  for (int k = 0; k < 9; ++k) std::getline(row, field, ',');  // to error_position
   EXPECT_GT(std::stod(field), 0.0) << csv;
   EXPECT_LT(std::stod(field), 1e-12) << csv;
 }
 
 TEST_F(DriverAccuracyTest, HasTheContactsAskedFor) {
-  ASSERT_EQ(run(impact + "--methods leapfrog --precisions double --contacts located --quick"), 0)
-      << err();
+  ASSERT_EQ(run(impact + "--methods leapfrog --contacts located --quick"), 0) << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
   EXPECT_EQ(count(csv, "\nleapfrog,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nleapfrog,located,double,"), 4) << csv;
-  EXPECT_EQ(count(csv, "\nlisting,listing,double,1e-06,"), 1)
-      << csv;  // the paper's is always there
+  EXPECT_EQ(count(csv, "\nleapfrog,located,"), 4) << csv;
+  EXPECT_EQ(count(csv, "\nlisting,listing,1e-06,"), 1) << csv;  // the paper's is always there
   ASSERT_EQ(run(impact + "--methods leapfrog,pefrl --contacts listing --quick --force"), 0)
       << err();
   EXPECT_NE(out().find("left out: pefrl: it has none of the contacts"), std::string::npos) << out();
 }
 
-TEST_F(DriverAccuracyTest, HasTheStepsAndPrecisionsAskedFor) {
-  ASSERT_EQ(
-      run(impact + "--methods yoshida-4 --precisions compensated --steps 1e-4,2.5e-5 --quick"), 0)
-      << err();
+TEST_F(DriverAccuracyTest, HasTheStepsAskedFor) {
+  ASSERT_EQ(run(impact + "--methods yoshida-4 --steps 1e-4,2.5e-5 --quick"), 0) << err();
   const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
-  EXPECT_NE(csv.find("\nyoshida-4,resolved,compensated,0.0001,,1000,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("\nyoshida-4,resolved,compensated,2.5e-05,,4000,"), std::string::npos) << csv;
-  EXPECT_EQ(csv.find("\nyoshida-4,resolved,double,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nyoshida-4,resolved,0.0001,,1000,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nyoshida-4,resolved,2.5e-05,,4000,"), std::string::npos) << csv;
 }
 
 // What the scene writes, and how often, is no matter of the study.
 TEST_F(DriverAccuracyTest, LooksMayBeRarerThanTheScenesOwn) {
   ASSERT_EQ(run(impact + "--set time.end=0.2 --every 0.02 --methods leapfrog --contacts resolved "
-                         "--precisions double --quick"),
+                         "--quick"),
             0)
       << err();
   EXPECT_EQ(run(impact + "--error 1 --set output.monitor_every=0.001", "advise"), 0) << err();
@@ -124,7 +107,7 @@ TEST_F(DriverAccuracyTest, LooksMayBeRarerThanTheScenesOwn) {
 
 TEST_F(DriverAccuracyTest, ThePapersProgramHasItsOwnStepOrIsLeftOut) {
   ASSERT_EQ(run(impact + "--set time.end=0.1234567 --methods leapfrog --contacts resolved "
-                         "--precisions double --quick"),
+                         "--quick"),
             0)
       << err();
   EXPECT_NE(out().find("left out: the paper's program: its step of 1e-06 s"), std::string::npos)
@@ -133,14 +116,15 @@ TEST_F(DriverAccuracyTest, ThePapersProgramHasItsOwnStepOrIsLeftOut) {
 }
 
 TEST_F(DriverAccuracyTest, SaysWhatNoKernelCanRun) {
-  const std::string inclined = impact + "--set wall.normal=[0.6,0.8] --set wall.offset=-2 ";
-  ASSERT_EQ(run(inclined + "--methods leapfrog --quick --precisions double,single"), 0) << err();
-  const std::string text = "left out: leapfrog, single: ";
-  EXPECT_NE(out().find(text), std::string::npos) << out();
-  EXPECT_NE(out().find("one floor"), std::string::npos) << out();
-  EXPECT_EQ(contents(folder_ / "runs/example-1-accuracy/accuracy.csv").find(",single,"),
-            std::string::npos);
-  EXPECT_NE(contents(folder_ / "runs/example-1-accuracy/origin.json").find("one floor"),
+  const std::string corner =
+      impact + "--set wall=[{alpha=1.0},{normal=[1.0,0.0],offset=-20.0,alpha=1.0}] ";
+  ASSERT_EQ(run(corner + "--methods leapfrog --quick"), 0) << err();
+  EXPECT_NE(out().find("left out: leapfrog, located: "), std::string::npos) << out();
+  EXPECT_NE(out().find("slides along one wall"), std::string::npos) << out();
+  const std::string csv = contents(folder_ / "runs/example-1-accuracy/accuracy.csv");
+  EXPECT_NE(csv.find("\nleapfrog,resolved,"), std::string::npos) << csv;
+  EXPECT_EQ(csv.find(",located,"), std::string::npos) << csv;
+  EXPECT_NE(contents(folder_ / "runs/example-1-accuracy/origin.json").find("slides along one wall"),
             std::string::npos);
 }
 
@@ -153,8 +137,6 @@ TEST_F(DriverAccuracyTest, TellsWhatIsWrongAndLeavesNothing) {
   refused("example-1 --methods euler", "--methods euler: unknown; allowed is listing");
   refused("example-1 --contacts sticky",
           "--contacts sticky: unknown; allowed is \"listing\", \"resolved\" or \"located\"");
-  refused("example-1 --precisions half",
-          "--precisions half: unknown; allowed is \"double\", \"compensated\" or \"single\"");
   refused("example-1 --steps 1e-4,3e-3", "--steps 0.003: allowed is a whole part of 0.01 s");
   refused("example-1 --steps 0", "--steps 0: allowed is a whole part");
   refused("example-1 --steps 0.02", "--steps 0.02: allowed is a whole part");

@@ -102,16 +102,5 @@ TEST_F(DriverRefusalTest, AFullDiskIsAnErrorThatLeavesNothing) {
   EXPECT_EQ(names("runs"), Words{});
 }
 
-// The oracle knows one, and what is allowed is told by its roundings.
-TEST_F(DriverRefusalTest, VerifyRefusesOtherPrecisions) {
-  for (const std::string precision : {"compensated", "single"}) {
-    std::ofstream(folder_ / "mine.toml") << "[time]\nprecision = \"" << precision << "\"\n";
-    EXPECT_EQ(run({"verify", "mine.toml", "--quick"}), 2);
-    EXPECT_NE(err().find("time.precision = " + precision + ": allowed is double"),
-              std::string::npos)
-        << err();
-  }
-}
-
 }  // namespace
 }  // namespace bounce

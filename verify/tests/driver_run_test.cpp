@@ -17,7 +17,6 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   const fs::path at = folder_ / "runs/example-2";
   EXPECT_EQ(entry(at / "run.json", "status"), "\"complete\"");
   EXPECT_EQ(entry(at / "run.json", "steps"), "20000");
-  EXPECT_EQ(entry(at / "run.json", "precision"), "\"double\"");
   EXPECT_EQ(entry(at / "run.json", "bonds"), "840");
   const std::string hash = entry(at / "run.json", "state_hash");
   EXPECT_EQ(hash.size(), 18U);
@@ -88,15 +87,6 @@ TEST_F(DriverRunTest, LocatedContactRunsAndHasNoBooks) {
   EXPECT_NE(err().find("--ledger: allowed is wall.contact listing or resolved"), std::string::npos)
       << err();
   EXPECT_FALSE(fs::exists(folder_ / "s"));
-}
-
-TEST_F(DriverRunTest, RecordsThePrecision) {
-  ASSERT_EQ(
-      run({"run", "example-2", "--steps", "1000", "--set", "time.precision=single", "--out", "r"}),
-      0)
-      << err();
-  EXPECT_EQ(entry(folder_ / "r/run.json", "precision"), "\"single\"");
-  EXPECT_NE(contents(folder_ / "r/run.json").find("\"kernel\": \"ring\""), std::string::npos);
 }
 
 TEST_F(DriverRunTest, ADiscFallsAndBounces) {

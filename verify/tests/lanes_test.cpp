@@ -29,7 +29,7 @@ std::int64_t steps_of(const Problem& problem) { return 4000 / problem.method->ev
 template <size_t lanes>
 std::uint64_t ring_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
-  RingStepper<D, FixedLaw<4, 2>, 3> stepper(problem, *find_rings(problem.bonds), threads, true);
+  RingStepper<D, FixedLaw<4, 2>, 3> stepper(problem, *find_rings(problem.bonds), threads);
   stepper.advance(steps_of(problem));
   return state_hash(stepper.state());
 }
@@ -39,7 +39,7 @@ std::uint64_t mirror_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
   const RingShape shape = *find_rings(problem.bonds);
   MirrorStepper<D, FixedLaw<4, 2>, 3> stepper(problem, shape, find_mirror_axis(problem, shape).sum,
-                                              threads, true);
+                                              threads);
   stepper.advance(steps_of(problem));
   return state_hash(stepper.state());
 }
@@ -47,7 +47,7 @@ std::uint64_t mirror_hash(const Problem& problem, int threads) {
 template <size_t lanes>
 std::uint64_t csr_hash(const Problem& problem, int threads) {
   using D = hn::FixedTag<double, lanes>;
-  SlicedStepper<FastPhysics<D, FixedLaw<4, 2>>> stepper(problem, threads, true);
+  SlicedStepper<FastPhysics<D, FixedLaw<4, 2>>> stepper(problem, threads);
   stepper.advance(steps_of(problem));
   return state_hash(stepper.state());
 }
