@@ -17,9 +17,9 @@
 
 #include "bench/memory_rate.hpp"
 #include "bench/plain_sweep.hpp"
-#include "driver/memory_check.hpp"
-#include "driver/origin.hpp"
-#include "kernels/stepping/plan.hpp"
+#include "driver/scene/memory_check.hpp"
+#include "driver/world/origin.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 namespace {

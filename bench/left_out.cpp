@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "bench/timing.hpp"
-#include "driver/origin.hpp"
-#include "driver/scene_file.hpp"
-#include "kernels/stepping/plan.hpp"
+#include "driver/world/origin.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 namespace {

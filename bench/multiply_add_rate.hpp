@@ -1,7 +1,7 @@
 // How fast this core multiplies: what a kernel's operation count is held against.
 #pragma once
 
-#include "kernels/stepping/plan.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 

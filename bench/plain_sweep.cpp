@@ -4,7 +4,7 @@
 #include <hwy/highway.h>
 
 #include "bench/plain_sweep.hpp"
-#include "kernels/stepping/ring_stepper-inl.hpp"
+#include "kernels/rings/ring_stepper-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -12,7 +12,7 @@ namespace HWY_NAMESPACE {
 
 std::unique_ptr<Stepper> make_sweep(const Problem& problem, const RingShape& shape, int threads) {
   using Sweep = RingStepper<hn::ScalableTag<double>, FixedLaw<4, 2>, 3>;
-  return std::make_unique<Sweep>(problem, shape, threads, false, 1);
+  return std::make_unique<Sweep>(problem, shape, threads, 1);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

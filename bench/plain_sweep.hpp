@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "kernels/stepping/plan.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 

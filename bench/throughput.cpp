@@ -23,10 +23,10 @@
 #include "bench/hand_shake.hpp"
 #include "bench/multiply_add_rate.hpp"
 #include "bench/timing.hpp"
-#include "driver/origin.hpp"
-#include "driver/scene_file.hpp"
-#include "kernels/stepping/plan.hpp"
-#include "verify/oracle.hpp"
+#include "driver/world/origin.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "kernels/plan/plan.hpp"
+#include "verify/oracle/oracle.hpp"
 
 namespace bounce {
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/built_in_scenes.hpp"
-#include "driver/commands.hpp"
-#include "driver/scene_file.hpp"
-#include "kernels/stepping/method.hpp"
-#include "kernels/stepping/plan.hpp"
-#include "verify/oracle_stepper.hpp"
+#include "driver/scene/built_in_scenes.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "kernels/model/method.hpp"
+#include "kernels/plan/plan.hpp"
+#include "verify/oracle/oracle_stepper.hpp"
 
 namespace bounce {
 namespace {

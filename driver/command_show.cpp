@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "driver/commands.hpp"
-#include "driver/scene_file.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/scene/scene_file.hpp"
 
 namespace bounce {
 

@@ -10,14 +10,14 @@
 
 #include <fmt/format.h>
 
-#include "driver/commands.hpp"
-#include "driver/files.hpp"
-#include "driver/origin.hpp"
-#include "driver/progress.hpp"
-#include "driver/scene_file.hpp"
-#include "kernels/stepping/plan.hpp"
-#include "verify/equivalence.hpp"
-#include "verify/oracle.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/files.hpp"
+#include "driver/world/origin.hpp"
+#include "driver/world/progress.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "kernels/plan/plan.hpp"
+#include "verify/oracle/equivalence.hpp"
+#include "verify/oracle/oracle.hpp"
 
 namespace bounce {
 namespace {

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/commands.hpp"
-#include "driver/input_error.hpp"
-#include "driver/origin.hpp"
-#include "driver/shell_word.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/input_error.hpp"
+#include "driver/world/origin.hpp"
+#include "driver/world/shell_word.hpp"
 #include "kernels/model/scene.hpp"
-#include "kernels/stepping/plan.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 

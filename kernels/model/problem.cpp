@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kernels/model/ball.hpp"
-#include "kernels/stepping/method.hpp"
+#include "kernels/model/method.hpp"
 
 namespace bounce {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "kernels/stepping/method.hpp"
+#include "kernels/model/method.hpp"
 
 namespace bounce {
 namespace {

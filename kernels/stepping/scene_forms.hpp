@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/model/problem.hpp"
-#include "kernels/stepping/plan.hpp"
+#include "kernels/plan/plan.hpp"
 
 namespace bounce {
 

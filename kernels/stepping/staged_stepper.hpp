@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels/model/problem.hpp"
-#include "kernels/stepping/method.hpp"
+#include "kernels/model/method.hpp"
 #include "kernels/stepping/stepper.hpp"
 
 namespace bounce {

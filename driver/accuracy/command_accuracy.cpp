@@ -1,0 +1,236 @@
+// bounce accuracy: error against run time of one scene, by method, contact rule and time step.
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "driver/accuracy/accuracy_study.hpp"
+#include "driver/accuracy/accuracy_table.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/accuracy/course_timing.hpp"
+#include "driver/world/files.hpp"
+#include "driver/world/input_error.hpp"
+#include "driver/world/interrupt.hpp"
+#include "driver/world/origin.hpp"
+#include "driver/world/progress.hpp"
+#include "driver/world/run_directory.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "kernels/model/method.hpp"
+#include "kernels/plan/plan.hpp"
+#include "verify/accuracy/accuracy.hpp"
+#include "verify/accuracy/baseline.hpp"
+#include "verify/accuracy/reference_pair.hpp"
+
+namespace bounce {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int exit_interrupted = 130;
+
+struct Options {
+  StudyRequest study;
+  int threads = 0;
+  std::string out;
+  bool force = false;
+
+  [[nodiscard]] fs::path directory() const {
+    return out.empty() ? fs::path("runs") / (fs::path(study.scene).stem().string() + "-accuracy")
+                       : fs::path(out);
+  }
+};
+
+// Ctrl-C, within the reference.
+struct Stopped {};
+
+// The course, and how far others are from it that claim to be the same: another method's, and that
+// from a start some roundings away. (Where everything grows, in a collapse or when elastic walls
+// are hit again and again, two courses may end alike by chance.)
+struct Reference {
+  CourseRecord record;
+  CourseErrors bar;
+};
+
+CourseRecord seen(const Problem& problem, int rings, const std::vector<double>& times,
+                  const std::vector<State>& states, std::size_t free_samples) {
+  CourseGauge gauge(problem, rings, free_samples);
+  for (std::size_t i = 0; i < times.size() && gauge.add(times[i], states[i]); ++i) {
+  }
+  return gauge.result();
+}
+
+Reference make_reference(const Study& study) {
+  const Problem problem =
+      problem_of(study.scene, study.initial, {"listing", Contact::resolved, 1}, study.sampling);
+  std::vector<double> times;
+  for (std::int64_t s = 0; s <= study.sampling.samples; ++s) {
+    times.push_back(study.sampling.every * static_cast<double>(s));
+  }
+  const DisturbedPair paths =
+      solve_disturbed(problem, times, {}, rounding_disturbance(problem), [] {
+        if (interrupted()) throw Stopped();
+      });
+  const ReferencePair& pair = paths.pair;
+  const int rings = rings_of(study.scene);
+  // By the contacts themselves: samples would miss the first bounces off an elastic wall.
+  const std::size_t last = pair.last_before_contact();
+  Reference reference;
+  reference.record = seen(problem, rings, times, pair.fixed.states, last > 0 ? last + 1 : 0);
+  const auto distance_of = [&](const std::vector<State>& states) {
+    return errors_of(seen(problem, rings, times, states, reference.record.free_samples),
+                     reference.record);
+  };
+  reference.bar = larger_of(distance_of(pair.adaptive.states), distance_of(paths.disturbed.states));
+  return reference;
+}
+
+Json origin_json(const Options& options, const Study& study, const std::string& command) {
+  const Origin origin = find_origin();
+  return {{"scene", options.study.scene},  {"command", command},
+          {"every", study.sampling.every}, {"end", study.sampling.end()},
+          {"left_out", study.left_out},    {"version", origin.version},
+          {"commit", origin.commit},       {"compiler", origin.compiler},
+          {"flags", origin.flags},         {"cpu", origin.cpu},
+          {"cores", origin.cores},         {"date", origin.date}};
+}
+
+std::optional<std::vector<AccuracyRow>> run_all(const Study& study, const Reference& reference,
+                                                int threads) {
+  double work = 0.0, done = 0.0;
+  const auto work_of = [&](const Setting& s) {
+    return static_cast<double>(s.steps_a_sample * find_method(s.method)->evaluations);
+  };
+  for (const Setting& setting : study.settings) work += work_of(setting);
+  CaseProgress progress(::isatty(STDERR_FILENO) != 0, study.settings.size(), work);
+  std::size_t ended = 0;
+  return measure_accuracy(study.scene, study.initial, study.settings, study.sampling,
+                          reference.record, threads, [&](std::size_t i) {
+                            done += work_of(study.settings[i]);
+                            progress.update(++ended, done);
+                            return !interrupted();
+                          });
+}
+
+// The baselines, one course at a time: they are timed as they run.
+void add_baselines(const StudyRequest& request, const Study& study, const Reference& reference,
+                   std::vector<TimedRow>& timed) {
+  BaselineSweep sweep;
+  if (request.quick) sweep = {2, 10.0, 0.1};
+  for (const Baseline& baseline : baselines()) {
+    if (!request.wants(baseline.name)) continue;
+    if (study.scene.walls.empty() && baseline.contact == BaselineContact::listing) continue;
+    const auto tick = [] {
+      if (interrupted()) throw Stopped();
+    };
+    for (BaselineRow& each : measure_baseline(baseline, study.scene, study.initial, study.sampling,
+                                              reference.record, sweep, tick)) {
+      timed.push_back({std::move(each.row), each.seconds});
+    }
+  }
+}
+
+int interrupted_exit() {
+  fmt::print(stderr, "bounce: interrupted; nothing was written\n");
+  return exit_interrupted;
+}
+
+int accuracy(const Options& options, const std::string& command_line) {
+  check_threads(options.threads);
+  choose_vector("auto");  // throws on a processor that BondForces is not compiled for
+  const Study study = make_study(options.study);
+  RunDirectory directory(options.directory(), options.force, "accuracy.csv");
+  catch_interrupts();
+  Reference reference;
+  std::optional<std::vector<AccuracyRow>> rows;
+  try {
+    reference = make_reference(study);
+    rows = run_all(study, reference, options.threads);
+  } catch (const Stopped&) {
+  } catch (const ReferenceError& error) {
+    throw InputError(fmt::format("this scene has no reference: {}", error.what()));
+  }
+  if (!rows) return interrupted_exit();
+  const CourseTimes times = time_courses(study.scene, study.initial, study.sampling, *rows, true);
+  std::vector<TimedRow> timed;
+  PapersProgram papers;
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const AccuracyRow& row = (*rows)[i];
+    if (study.papers && row.setting == *study.papers)
+      papers = {i, times.oracle * static_cast<double>(row.steps)};
+    timed.push_back({row, times.rows[i]});
+  }
+  try {
+    add_baselines(options.study, study, reference, timed);
+  } catch (const Stopped&) {
+    return interrupted_exit();
+  }
+  std::string table = accuracy_table(timed, papers, reference.record, reference.bar);
+  for (const std::string& line : study.left_out) table += fmt::format("left out: {}\n", line);
+  write_file_whole(directory.path() / "scene.toml", to_toml(study.scene));
+  write_file_whole(directory.path() / "accuracy.csv",
+                   accuracy_csv(timed, reference.record, reference.bar));
+  write_file_whole(directory.path() / "table.txt", table);
+  Json origin = origin_json(options, study, command_line);
+  origin["oracle_seconds"] = papers.seconds;
+  if (const auto best = cheapest_as_good(timed, papers, reference.bar)) {
+    const AccuracyRow& row = timed[*best].row;
+    origin["best"] = {{"method", row.setting.method},
+                      {"contact", std::string(contact_name(row))},
+                      {"dt", row.step},
+                      {"seconds", timed[*best].seconds}};
+  }
+  write_file_whole(directory.path() / "origin.json", origin.dump(2) + "\n");
+  directory.publish();
+  fmt::print("{}\nfiles: {}\n", table, options.directory().string());
+  return 0;
+}
+
+}  // namespace
+
+void add_accuracy_command(CLI::App& program, CommandContext& context) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "accuracy", "Measure error against run time, by method, contact rule and time step");
+  command->add_option("SCENE", options->study.scene, "A scene's name, or a file")->required();
+  add_set_option(*command, options->study.settings);
+  command->add_option("--initial", options->study.initial, "Start from this state (CSV)");
+  command->add_option("--methods", options->study.methods, "These methods and baselines [all]")
+      ->delimiter(',');
+  command
+      ->add_option("--contacts", options->study.contacts,
+                   "These of a method's contacts: listing, resolved, located [all]")
+      ->delimiter(',');
+  command
+      ->add_option("--steps", options->study.steps,
+                   "These time steps, too, s; whole parts of --every [none]")
+      ->delimiter(',');
+  command->add_option("--every", options->study.every, "Time between two looks, s [0.01]");
+  command->add_option(
+      "--decades", options->study.sweep.decades,
+      "Time steps from the stable one down so many decades, one less for methods above order 2 "
+      "with located contact [3]");
+  command->add_option("--per-decade", options->study.sweep.per_decade,
+                      "Time steps a decade, in the first four times as many [3]");
+  command->add_flag("--quick", options->study.quick, "1.5 decades, 2 a decade, in the first, too");
+  command->add_option("--threads", options->threads,
+                      "Courses side by side, 1 to 256; 0: one a core [0]");
+  command->add_option("--out", options->out, "Directory of results [runs/SCENE-accuracy]");
+  command->add_flag("--force", options->force, "Replace results that exist");
+  command->footer(
+      "Writes accuracy.csv, table.txt, scene.toml, origin.json. Errors are differences from a\n"
+      "reference: solutions in continuous time by two methods that share no arithmetic, and one "
+      "from\n"
+      "a start some roundings away; what they differ by is its error bar.\n"
+      "Examples:\n"
+      "  bounce accuracy example-1 --quick\n"
+      "  bounce accuracy example-2 --methods listing,leapfrog --set time.end=9\n");
+  command->callback(
+      [options, &context] { context.exit_code = accuracy(*options, context.command_line); });
+}
+
+}  // namespace bounce

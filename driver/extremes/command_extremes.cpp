@@ -1,0 +1,211 @@
+// bounce extremes: scenes at the edge of what a program can bear, each with what it should do.
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "driver/world/commands.hpp"
+#include "driver/extremes/extreme_table.hpp"
+#include "driver/world/files.hpp"
+#include "driver/world/interrupt.hpp"
+#include "driver/world/near_miss.hpp"
+
+namespace bounce {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int exit_interrupted = 130;
+
+struct Options {
+  std::vector<std::string> only;
+  std::string out;
+  std::string runs;
+  int threads = 0;
+  bool quick = false;
+  bool list = false;
+};
+
+// All rows built in, and those that --only names as files.
+std::vector<ExtremeRow> all_rows(Options& options) {
+  std::vector<ExtremeRow> rows = extreme_rows();
+  for (std::string& name : options.only) {
+    if (!name.ends_with(".toml")) continue;
+    rows.push_back(read_extreme_row(fs::path(name).stem(), read_text_file(name)));
+    name = rows.back().name;
+  }
+  return rows;
+}
+
+// The rows to run. One that is like another brings that one along.
+std::vector<ExtremeEntry> chosen(Options options) {
+  std::vector<ExtremeRow> rows = all_rows(options);
+  std::vector<std::string> names;
+  for (const ExtremeRow& row : rows) names.push_back(row.name);
+  for (const std::string& name : options.only) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      throw InputError(fmt::format("--only {}: no such row{} (allowed are: {})", name,
+                                   did_you_mean(name, names), fmt::join(names, ", ")));
+    }
+  }
+  std::vector<std::string> wanted = options.only;
+  for (const ExtremeRow& row : rows) {
+    const bool asked = options.only.empty()
+                           ? row.quick || !options.quick
+                           : std::find(wanted.begin(), wanted.end(), row.name) != wanted.end();
+    if (asked) wanted.insert(wanted.end(), {row.name, row.like});
+  }
+  std::vector<ExtremeEntry> entries;
+  for (ExtremeRow& row : rows) {
+    if (std::find(wanted.begin(), wanted.end(), row.name) == wanted.end()) continue;
+    entries.push_back({std::move(row), {}});
+  }
+  return entries;
+}
+
+// Where the runs' files are: a directory of the user's, or one that goes away again.
+class RunsFolder {
+ public:
+  explicit RunsFolder(const std::string& wanted) : keep_(!wanted.empty()) {
+    if (keep_) {
+      std::error_code error;
+      if (!fs::create_directory(wanted, error)) {
+        throw InputError(fmt::format("--runs {}: a directory cannot be made there: {}", wanted,
+                                     error ? error.message() : std::string("it exists already")));
+      }
+      path_ = fs::absolute(wanted);
+      return;
+    }
+    std::string name = (fs::temp_directory_path() / "bounce-extremes-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::runtime_error(name + ": a directory cannot be made there");
+    }
+    path_ = name;
+  }
+  ~RunsFolder() {
+    std::error_code ignored;
+    if (!keep_) fs::remove_all(path_, ignored);
+  }
+  RunsFolder(const RunsFolder&) = delete;
+  RunsFolder& operator=(const RunsFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  bool keep_;
+  fs::path path_;
+};
+
+double steps_of(const ExtremeRow& row) { return row.scene.time.end / row.scene.time.step; }
+
+// Rows side by side, the longest first; each is told of as it ends.
+void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& folder) {
+  std::vector<ExtremeEntry*> order;
+  for (ExtremeEntry& entry : entries) order.push_back(&entry);
+  std::stable_sort(order.begin(), order.end(), [](const ExtremeEntry* a, const ExtremeEntry* b) {
+    return steps_of(a->row) > steps_of(b->row);
+  });
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (interrupted()) continue;
+    order[i]->result = run_extreme_row(order[i]->row, folder);
+#pragma omp critical
+    {
+      fmt::print(stderr, "{}\n", line_of(*order[i]));
+      std::fflush(stderr);
+    }
+  }
+}
+
+void compare_rows(std::vector<ExtremeEntry>& entries, const fs::path& folder) {
+  const std::string complete = name_of(Outcome::complete);
+  for (ExtremeEntry& entry : entries) {
+    if (entry.row.like.empty() || entry.result.happened != complete) continue;
+    const auto like = std::find_if(entries.begin(), entries.end(), [&](const ExtremeEntry& other) {
+      return other.row.name == entry.row.like;
+    });
+    if (like == entries.end() || like->result.happened != complete) {
+      entry.result.as_expected = false;
+      entry.result.detail += "; NOTHING TO COMPARE WITH: " + entry.row.like;
+      continue;
+    }
+    compare_with_like(entry.row, like->row, folder, entry.result);
+  }
+}
+
+int extremes(const Options& options, const std::string& command_line) {
+  std::vector<ExtremeEntry> entries = chosen(options);
+  if (options.list) {
+    for (const auto& [row, result] : entries) {
+      fmt::print("{:<24} {:<9} {}\n", row.name, name_of(row.expected), row.scene.title);
+    }
+    return 0;
+  }
+  if (options.threads < 0 || options.threads > 256) {
+    throw InputError(fmt::format("--threads {}: allowed is 0 to 256", options.threads));
+  }
+  if (!options.out.empty()) {
+    std::error_code error;
+    fs::create_directories(options.out, error);
+    check_output_path(fs::path(options.out) / "extremes.md", true);
+  }
+  catch_interrupts();
+  const RunsFolder folder(options.runs);
+  run_rows(entries, options.threads > 0 ? options.threads : omp_get_max_threads(), folder.path());
+  if (interrupted()) {
+    fmt::print(stderr, "bounce: interrupted; nothing is written\n");
+    return exit_interrupted;
+  }
+  compare_rows(entries, folder.path());
+  for (const ExtremeEntry& entry : entries) fmt::print("{}\n", line_of(entry));
+  if (!options.out.empty()) {
+    const fs::path out = options.out;
+    write_file_whole(out / "extremes.csv", extremes_csv(entries));
+    write_file_whole(out / "extremes.md", extremes_markdown(entries, command_line));
+  }
+  const auto failed = std::count_if(entries.begin(), entries.end(), [](const ExtremeEntry& entry) {
+    return !entry.result.as_expected;
+  });
+  fmt::print("{} of {} rows as expected\n", static_cast<std::ptrdiff_t>(entries.size()) - failed,
+             entries.size());
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_extremes_command(CLI::App& program, CommandContext& context) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "extremes", "Run stiff and extreme scenes, each with what it should do");
+  command
+      ->add_option("--only", options->only,
+                   "Run this row alone, or that of a file NAME.toml; may be given several times")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  command->add_option("-o,--out", options->out, "Write extremes.csv and extremes.md into DIR");
+  command->add_option("--runs", options->runs, "Keep the runs' files in DIR, which must not exist");
+  command->add_option("--threads", options->threads, "Rows run side by side; 0: one a core [0]");
+  command->add_flag("--quick", options->quick, "The short rows alone");
+  command->add_flag("--list", options->list, "Say which rows there are, and run none");
+  command->footer(
+      "Each row is a scene of driver/scenes/extremes/ (bounce show extremes/NAME). It either\n"
+      "completes with its ledgers closed, or is refused before it starts, or stops with exit code "
+      "3,\n"
+      "its trouble named and its last good state kept; its file says which, and why.\n"
+      "Exit code: 0 every row does what is expected, 1 one does not, 2 bad input.\n\n"
+      "Examples:\n"
+      "  bounce extremes --quick\n"
+      "  bounce extremes --only bond-1e-3 --runs runs/extremes\n"
+      "  bounce run extremes/edge-above --force\n");
+  command->callback(
+      [options, &context] { context.exit_code = extremes(*options, context.command_line); });
+}
+
+}  // namespace bounce

@@ -1,0 +1,118 @@
+#include "driver/scene/state_file.hpp"
+
+#include <array>
+#include <charconv>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "driver/world/files.hpp"
+#include "driver/world/input_error.hpp"
+#include "verify/oracle/listing_frame.hpp"
+
+namespace bounce {
+namespace {
+
+constexpr std::string_view csv_header = "i,x,y,vx,vy";
+constexpr std::array<const char*, 4> column_names{"x", "y", "vx", "vy"};
+
+struct Line {
+  const std::string& path;
+  std::size_t number;
+  std::string_view text;
+
+  [[nodiscard]] InputError refuse(std::string_view key, std::string_view value,
+                                  std::string_view allowed) const {
+    return InputError(
+        fmt::format("{}:{}: {} = \"{:.40}\": allowed is {}", path, number, key, value, allowed));
+  }
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+// The whole of `text` as a number; from_chars takes no leading plus sign.
+template <class Number>
+bool parse(std::string_view text, Number& out) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+void append(State& state, const std::array<double, 4>& values) {
+  state.x.push_back(values[0]);
+  state.y.push_back(values[1]);
+  state.vx.push_back(values[2]);
+  state.vy.push_back(values[3]);
+}
+
+void read_csv_line(const Line& line, State& state) {
+  std::vector<std::string_view> cells;
+  for (std::string_view rest = line.text;;) {
+    const auto comma = rest.find(',');
+    cells.push_back(trimmed(rest.substr(0, comma)));
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (cells.size() != 5) throw line.refuse("line", line.text, "five values, i,x,y,vx,vy");
+  std::size_t number = 0;
+  if (!parse(cells[0], number) || number != state.size() + 1) {
+    throw line.refuse("i", cells[0], fmt::format("{}, the particle's number", state.size() + 1));
+  }
+  std::array<double, 4> values{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (!parse(cells[c + 1], values[c]))
+      throw line.refuse(column_names[c], cells[c + 1], "a number");
+  }
+  append(state, values);
+}
+
+State read_csv(const std::string& path, std::string_view rest) {
+  State state;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const auto end = rest.find('\n');
+    const Line line{path, number, rest.substr(0, end)};
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (number > 1) read_csv_line(line, state);
+  }
+  if (state.size() == 0) throw InputError(path + ": holds no particles");
+  return state;
+}
+
+}  // namespace
+
+void write_state_csv(OutputFile& file, const State& state) {
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out), "{}\n", csv_header);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    fmt::format_to(std::back_inserter(out), "{},{:.17g},{:.17g},{:.17g},{:.17g}\n", i + 1,
+                   state.x[i], state.y[i], state.vx[i], state.vy[i]);
+    file.write_large(out);
+  }
+  file.write({out.data(), out.size()});
+}
+
+State read_state(const std::string& path) {
+  const std::string text = read_text_file(path);
+  if (trimmed(std::string_view(text).substr(0, text.find('\n'))) == csv_header) {
+    return read_csv(path, text);
+  }
+  try {
+    std::istringstream in(text);
+    return read_listing_frame(in);
+  } catch (const std::runtime_error& error) {
+    throw InputError(
+        fmt::format("{}: {} (allowed is the listing's format, 4F12.4, or a file that "
+                    "begins with {})",
+                    path, error.what(), csv_header));
+  }
+}
+
+}  // namespace bounce

@@ -1,0 +1,11 @@
+// The mirror kernel as the plan sees it; mirror_stepper-inl.hpp says how it works.
+#pragma once
+
+#include "kernels/plan/plan.hpp"
+
+namespace bounce {
+
+/// Registry entry of `mirror`.
+KernelEntry mirror_entry();
+
+}  // namespace bounce

@@ -1,0 +1,11 @@
+// The ring kernel as the plan sees it; ring_stepper-inl.hpp says how it works.
+#pragma once
+
+#include "kernels/plan/plan.hpp"
+
+namespace bounce {
+
+/// Registry entry of `ring`.
+KernelEntry ring_entry();
+
+}  // namespace bounce

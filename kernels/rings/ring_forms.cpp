@@ -1,0 +1,92 @@
+#include "kernels/rings/ring_forms.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+
+#include "kernels/model/method.hpp"
+#include "kernels/stepping/scene_forms.hpp"
+
+namespace bounce {
+namespace {
+
+std::string refuses_law(LawForm form, int rings) {
+  if (form == LawForm::three_five || (has_ring_law(form) && rings == 3)) return {};
+  return has_ring_law(form) ? "exponents other than (3, 5) are compiled for three rings only"
+                            : "its exponents (p, q) are not one of (3, 5), (7, 13), (2, 4)";
+}
+
+// Of the law, a bond (vector_law-inl.hpp); roots are not counted.
+int law_multiplications(LawForm form) {
+  switch (form) {
+    case LawForm::three_five:
+      return 3;  // u^2, H u - G, their product
+    case LawForm::seven_thirteen:
+      return 6;  // u^2 and its square, u^3 in two, H u^3 - G, their product
+    default:
+      return 3;  // u u^(1/2), H u - G, their product
+  }
+}
+
+}  // namespace
+
+bool has_ring_law(LawForm form) {
+  return form == LawForm::three_five || form == LawForm::seven_thirteen ||
+         form == LawForm::two_four;
+}
+
+int ring_lanes(std::int64_t per_ring, VectorTarget target) {
+  const auto fits = [per_ring](int lanes) {
+    return per_ring % lanes == 0 && per_ring / lanes >= 2;
+  };
+  if (target == VectorTarget::avx512 && fits(8)) return 8;
+  return fits(4) ? 4 : 0;
+}
+
+RingForm find_ring_form(const Problem& problem) {
+  const auto shape = find_rings(problem.bonds);
+  if (!shape) {
+    return {{},
+            "the neighbour list is not 1 to " + std::to_string(most_rings) +
+                " concentric rings with constant offsets"};
+  }
+  return {*shape, refuses_law(law_form(problem.law), shape->rings)};
+}
+
+int team_size(int asked, std::int64_t columns) {
+  constexpr std::int64_t columns_that_pay = 7;  // some 0.15 us
+  constexpr std::int64_t small = 256;           // columns: 100 kB with 4 lanes and three rings
+  if (asked != 0) return asked;
+  const std::int64_t most = columns < small ? 2 : omp_get_num_procs();
+  const std::int64_t fit = std::min<std::int64_t>(omp_get_num_procs(), columns / columns_that_pay);
+  return static_cast<int>(std::clamp<std::int64_t>(fit, 1, most));
+}
+
+RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
+  constexpr std::size_t cached_bytes =
+      std::size_t{256} * 1024;                // a second cache has 512 kB or more
+  constexpr std::size_t columns_alone = 128;  // with so many a tile steps several stages alone
+  if (threads > 1) return columns / threads < columns_alone ? RingWalk::team : RingWalk::tiles;
+  return columns * bytes_a_column <= cached_bytes ? RingWalk::loop : RingWalk::tiles;
+}
+
+double ring_multiplications(const Problem& problem, int rings, std::int64_t columns) {
+  // To share a division among 1, 2, 3, 4 bonds (reciprocals_of).
+  constexpr std::array<int, 5> to_share{0, 0, 3, 6, 9};
+  const int bonds = 3 * rings - 2;
+  const int a_bond = 2 + law_multiplications(law_form(problem.law)) + 4;
+  const int a_column = bonds * a_bond + bonds / 4 * to_share[4] +
+                       to_share[static_cast<std::size_t>(bonds % 4)] + 2 * rings;
+  return static_cast<double>(columns) * a_column * problem.method->evaluations;
+}
+
+double rings_multiplications(const Problem& problem, int rings, std::int64_t columns) {
+  const int a_bond = 2 + law_multiplications(law_form(problem.law)) + 4;
+  constexpr int to_share_among_three = 6;
+  const int a_ring = 3 * a_bond + to_share_among_three + 2;
+  return static_cast<double>(columns) * ((rings - 1) * a_ring + a_bond + 2) *
+         problem.method->evaluations;
+}
+
+}  // namespace bounce

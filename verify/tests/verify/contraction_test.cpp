@@ -1,0 +1,36 @@
+// The oracle's step built with -O3 -mfma -ffp-contract=fast: its pragma must keep fused
+// multiply-add out.
+#include <gtest/gtest.h>
+
+#include "kernels/model/problem.hpp"
+#include "verify/oracle/oracle.hpp"
+#include "verify/tests/paper_scenes.hpp"
+
+namespace bounce {
+
+namespace resisting {  // with the file's own pragma
+void run_listing(Listing& ball, std::span<const Wall> walls, std::int64_t steps);
+}
+namespace contracted {  // with leave to contract
+void run_listing(Listing& ball, std::span<const Wall> walls, std::int64_t steps);
+}
+
+namespace {
+
+std::uint64_t hash_after_1000_steps(RunListing run) {
+  const Scene scene = paper_scene(7);  // both kinds of wall
+  Oracle oracle(scene, make_problem(scene).initial, run);
+  oracle.step(1000);
+  return state_hash(oracle.state());
+}
+
+TEST(Contraction, KeptOutByThePragma) {
+  if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "this processor has no fused multiply-add";
+  const std::uint64_t expected = hash_after_1000_steps(&exact::run_listing);
+  EXPECT_EQ(hash_after_1000_steps(&resisting::run_listing), expected);
+  EXPECT_NE(hash_after_1000_steps(&contracted::run_listing), expected)
+      << "these flags contract nothing, so this test shows nothing";
+}
+
+}  // namespace
+}  // namespace bounce

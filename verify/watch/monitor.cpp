@@ -1,0 +1,217 @@
+#include "verify/watch/monitor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "verify/watch/compensated_sum.hpp"
+#include "kernels/model/powers.hpp"
+
+namespace bounce {
+namespace {
+
+// Rounding errors of 1e-16 of the ball's energies, gathered over 1e7 steps as if they all had one
+// sign.
+constexpr double rounding_share = 1e-9;
+
+// How often the elastic energy of the start may come and go through the method's own error: the
+// swing of a vibration at 82 % of the edge of stability, or of all of them, stiff and soft, nearer.
+// Example 2 gains 3 times its elastic energy at the last stable step, Example 7 5 times.
+constexpr double elastic_swing = 10.0;
+
+// True if `value` should replace `smallest`; a NaN replaces any number and stays.
+bool is_smaller(double value, double smallest) {
+  return !(value >= smallest) && !std::isnan(smallest);
+}
+
+double squared_distance(const State& s, std::size_t i, std::size_t j) {
+  const double dx = s.x[i] - s.x[j];
+  const double dy = s.y[i] - s.y[j];
+  return dx * dx + dy * dy;
+}
+
+void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
+  const PotentialOf potential_of(problem.law);
+  CompensatedSum energy;
+  double smallest = std::numeric_limits<double>::infinity();  // (R/R0)^2
+  std::vector<double> per_rest_squared;                       // a division a class, not a bond
+  for (const BondClass& bond : problem.classes) {
+    per_rest_squared.push_back(1.0 / (bond.rest * bond.rest));
+  }
+  problem.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
+    const double r2 = squared_distance(state, i, j);
+    energy.add(potential_of(problem.classes[c], r2));
+    const double ratio = r2 * per_rest_squared[c];
+    if (is_smaller(ratio, smallest)) {
+      smallest = ratio;
+      sample.ratio_first = static_cast<std::int64_t>(i);
+      sample.ratio_second = static_cast<std::int64_t>(j);
+    }
+  });
+  sample.bond = energy.value();
+  sample.smallest_ratio = std::sqrt(smallest);
+}
+
+void measure_motion(const State& s, Sample& sample) {
+  CompensatedSum x, y, px, py, kinetic, spin;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    x.add(s.x[i]);
+    y.add(s.y[i]);
+    px.add(s.vx[i]);
+    py.add(s.vy[i]);
+    kinetic.add(0.5 * (s.vx[i] * s.vx[i] + s.vy[i] * s.vy[i]));
+  }
+  const auto n = static_cast<double>(s.size());
+  sample.centre = {x.value() / n, y.value() / n};
+  sample.momentum = {px.value(), py.value()};
+  sample.kinetic = kinetic.value();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    spin.add((s.x[i] - sample.centre.x) * s.vy[i]);
+    spin.add(-(s.y[i] - sample.centre.y) * s.vx[i]);
+  }
+  sample.angular_momentum = spin.value();
+}
+
+void measure_surroundings(const Problem& problem, const State& s, Sample& sample) {
+  CompensatedSum gravity;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    gravity.add(-problem.gravity.x * s.x[i]);
+    gravity.add(-problem.gravity.y * s.y[i]);
+    if (is_smaller(s.y[i], lowest)) lowest = s.y[i];
+    const bool touches =
+        std::any_of(problem.walls.begin(), problem.walls.end(), [&](const Wall& wall) {
+          return !(wall_distance(wall, s.x[i], s.y[i]) >= contact_distance);
+        });
+    if (touches) ++sample.on_wall;
+  }
+  sample.gravity = gravity.value();
+  sample.lowest = lowest;
+}
+
+// Bond energy with every bond at rest: the zero of elastic energy.
+double rest_bond_energy(const Problem& problem) {
+  std::vector<double> entries(problem.classes.size());  // by class; every bond has two
+  for (std::size_t i = 0; i < problem.bonds.particles(); ++i) {
+    problem.bonds.visit_row(i, [&](std::size_t, std::size_t c) { entries[c] += 1.0; });
+  }
+  CompensatedSum energy;
+  for (std::size_t c = 0; c < entries.size(); ++c) {
+    const BondClass& bond = problem.classes[c];
+    energy.add(0.5 * entries[c] * potential(problem.law, bond, bond.rest * bond.rest));
+  }
+  return energy.value();
+}
+
+std::string print(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+struct Tightest {
+  std::int64_t partner = -1;
+  double ratio = std::numeric_limits<double>::infinity();  // R/R0
+};
+
+// The particle's bond with the smallest R/R0, or its first one whose R/R0 is not a number.
+Tightest tightest_bond(const Problem& problem, const State& state, std::size_t i) {
+  Tightest tightest;
+  problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+    const double ratio = std::sqrt(squared_distance(state, i, j)) / problem.classes[c].rest;
+    if (tightest.partner < 0 || is_smaller(ratio, tightest.ratio)) {
+      tightest = {static_cast<std::int64_t>(j), ratio};
+    }
+  });
+  return tightest;
+}
+
+// The bond with the most elastic energy, V(R) - V(R0): where energy that appeared from nowhere
+// sits, in a bond pressed together or pulled apart. Any bond before one whose energy is not a
+// number.
+struct Strained {
+  std::int64_t first = -1, second = -1;
+  double ratio = 0.0;  // R/R0
+};
+Strained most_strained(const Problem& problem, const State& state) {
+  Strained strained;
+  double most = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    problem.bonds.visit_row(i, [&](std::size_t j, std::size_t c) {
+      const BondClass& bond = problem.classes[c];
+      const double r2 = squared_distance(state, i, j);
+      const double energy =
+          potential(problem.law, bond, r2) - potential(problem.law, bond, bond.rest * bond.rest);
+      if (strained.first >= 0 && !(energy > most)) return;
+      most = energy;
+      strained = {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j),
+                  std::sqrt(r2) / bond.rest};
+    });
+  }
+  return strained;
+}
+
+Trouble trouble_at(std::string what, std::int64_t first, std::int64_t second, double ratio) {
+  what += "; bond " + std::to_string(first + 1) + "-" + std::to_string(second + 1) +
+          " is at R/R0 = " + print(ratio);
+  return {std::move(what), first, first, second};
+}
+
+std::optional<Trouble> non_finite_number(const Problem& problem, const State& s) {
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const bool here = std::isfinite(s.x[i]) && std::isfinite(s.y[i]);
+    const bool moving = std::isfinite(s.vx[i]) && std::isfinite(s.vy[i]);
+    if (here && moving) continue;
+    const Tightest bond = tightest_bond(problem, s, i);
+    return trouble_at((here ? "velocity of particle " : "position of particle ") +
+                          std::to_string(i + 1) + " is not finite",
+                      static_cast<std::int64_t>(i), bond.partner, bond.ratio);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Sample measure(const Problem& problem, const State& state) {
+  Sample sample;
+  measure_bonds(problem, state, sample);
+  measure_motion(state, sample);
+  measure_surroundings(problem, state, sample);
+  return sample;
+}
+
+Watch::Watch(const Problem& problem, const State& start)
+    : problem_(&problem),
+      start_(measure(problem, start)),
+      motion_(start_.kinetic + elastic_swing * (start_.bond - rest_bond_energy(problem))),
+      floor_(rounding_share * (start_.kinetic + std::abs(start_.bond) + std::abs(start_.gravity))) {
+}
+
+double Watch::allowed_gain() const { return std::max(motion_ + fall_, floor_); }
+
+std::optional<Trouble> Watch::check(const State& state, const Sample& sample) const {
+  if (auto trouble = non_finite_number(*problem_, state)) return trouble;
+  const double gain = sample.total() - start_.total();
+  if (std::isfinite(gain) && gain <= allowed_gain()) return std::nullopt;
+  if (!std::isfinite(gain)) {
+    return trouble_at(
+        "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite",
+        sample.ratio_first, sample.ratio_second, sample.smallest_ratio);
+  }
+  const Strained bond = most_strained(*problem_, state);
+  return trouble_at("energy jumped by " + print(gain) + " erg, more than the " +
+                        print(allowed_gain()) +
+                        " erg that start and fall account for (a smaller time step may help); most "
+                        "of the bonds' energy is in one",
+                    bond.first, bond.second, bond.ratio);
+}
+
+void Watch::accept(const Sample& sample) {
+  fall_ = std::max(fall_, start_.gravity - sample.gravity);
+}
+
+}  // namespace bounce
