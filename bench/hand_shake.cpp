@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "kernels/stepping/spin.hpp"
+#include "kernels/stepping/threads.hpp"
 
 namespace bounce {
 

@@ -47,7 +47,7 @@ std::unique_ptr<Stepper> stepper_of(const Problem& problem, int threads) {
   PlanRequest request;
   request.kernel = "ring";
   request.threads = threads;
-  return make_stepper(problem, make_plan(problem, request));
+  return make_stepper(problem, request);
 }
 
 double median(std::vector<double> values) {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/timing.hpp"
-#include "driver/world/origin.hpp"
 #include "driver/scene/scene_file.hpp"
+#include "driver/world/origin.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {
@@ -37,7 +37,7 @@ std::unique_ptr<Stepper> stepper_of(const Side& side) {
   PlanRequest request;
   request.kernel = side.kernel;
   request.threads = side.threads;
-  return make_stepper(problem, make_plan(problem, request));
+  return make_stepper(problem, request);
 }
 
 // `with` has what `without` leaves out.

@@ -26,8 +26,7 @@ namespace bounce {
 std::unique_ptr<Stepper> make_plain_sweep(const Problem& problem, VectorTarget vector,
                                           int threads) {
   const RingShape shape = find_rings(problem.bonds).value();
-  return vector == VectorTarget::avx512 ? N_AVX3::make_sweep(problem, shape, threads)
-                                        : N_AVX2::make_sweep(problem, shape, threads);
+  return BOUNCE_COMPILED_FOR(vector, make_sweep)(problem, shape, threads);
 }
 
 }  // namespace bounce

@@ -23,8 +23,8 @@
 #include "bench/hand_shake.hpp"
 #include "bench/multiply_add_rate.hpp"
 #include "bench/timing.hpp"
-#include "driver/world/origin.hpp"
 #include "driver/scene/scene_file.hpp"
+#include "driver/world/origin.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/oracle/oracle.hpp"
 
@@ -110,7 +110,7 @@ PlanRequest request_of(const std::string& kernel, const std::string& vector, int
 class KernelSubject final : public Subject {
  public:
   KernelSubject(const Case& of, const PlanRequest& request)
-      : plan_(make_plan(of.problem, request)), stepper_(make_stepper(of.problem, plan_)) {}
+      : plan_(make_plan(of.problem, request)), stepper_(plan_.make_stepper()) {}
   void advance(std::int64_t steps) override { stepper_->advance(steps); }
   [[nodiscard]] std::vector<State> states() const override { return {stepper_->state()}; }
   [[nodiscard]] std::optional<Counted> counted() const override {

@@ -10,12 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "driver/scene/scene_file.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/files.hpp"
+#include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
-#include "driver/scene/scene_file.hpp"
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/threads.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle.hpp"
 
@@ -48,7 +49,8 @@ std::vector<Case> make_cases(const Options& options) {
   for (const std::string& name : options.scenes) {
     const Scene scene = SceneFile::find(name).scene();
     if (const std::string refusal = Oracle::refusal(scene); !refusal.empty()) {
-      throw PlanError(fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
+      throw InputError(
+          fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
     }
     const std::int64_t whole = scene.steps_until(scene.time.end);
     const std::int64_t steps = options.full ? whole : options.quick ? quick_steps : default_steps;
@@ -74,9 +76,7 @@ void run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& ker
                    [](const Case* a, const Case* b) { return a->steps > b->steps; });
   std::vector<std::atomic<std::int64_t>> done(order.size());
   Progress progress(isatty(STDERR_FILENO) != 0, total, 1e-6);
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  parallel_for(order.size(), 0, [&](std::size_t i) {
     Case& each = *order[i];
     const auto report = [&](std::int64_t steps) {
       done[i].store(steps);
@@ -85,15 +85,9 @@ void run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& ker
       for (const auto& part : done) sum += part.load();
       progress.update(sum);
     };
-    try {
-      each.rows =
-          check_equivalence(each.name, each.scene, each.steps, each.observables, kernels, report);
-    } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+    each.rows =
+        check_equivalence(each.name, each.scene, each.steps, each.observables, kernels, report);
+  });
 }
 
 std::string table_of(const std::vector<Case>& cases) {
@@ -109,7 +103,7 @@ std::string table_of(const std::vector<Case>& cases) {
 }
 
 constexpr const char* explanation =
-    "strict: the oracle's bits at every step. csr, ring: velocities within the rounding of one "
+    "strict: the oracle's bits at every step. The others: velocities within the rounding of one "
     "kick,\n"
     "positions within one last place at the first differing step; from then on at most ten times "
     "as far "

@@ -83,7 +83,8 @@ int main_with_errors(int argc, char** argv) {
   } catch (const SceneError& error) {
     return report(error.what(), 2);
   } catch (const PlanError& error) {
-    return report(error.what(), 2);
+    // What may be asked of a plan are options of the same names.
+    return report(((error.field.empty() ? "" : "--") + std::string(error.what())).c_str(), 2);
   } catch (const std::bad_alloc&) {
     return report("out of memory: the ball is too large for this machine", 1);
   } catch (const std::exception& error) {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "kernels/plan/plan.hpp"
-#include "verify/stability/energy_judge.hpp"
 #include "verify/oracle/oracle_stepper.hpp"
+#include "verify/stability/energy_judge.hpp"
 
 namespace bounce {
 namespace {
@@ -34,7 +34,7 @@ std::unique_ptr<Stepper> make_oracle(Scene scene, const std::optional<State>& in
   const Problem problem = make_problem(scene, initial);
   const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
   try {
-    return make_stepper(problem, make_plan(problem, {"oracle", "auto", 1}, entries), entries);
+    return make_stepper(problem, {"oracle", "auto", 1}, entries);
   } catch (const PlanError&) {
     return nullptr;
   }
@@ -52,7 +52,7 @@ class Kinds {
       kinds_.push_back(row.setting);
       const Problem problem = problem_of(scene, initial, row.setting, sampling);
       for (const double time : {0.0, row.record.lowest_time}) {
-        steppers_.push_back(make_stepper(problem, make_plan(problem, {"auto", "auto", 1})));
+        steppers_.push_back(make_stepper(problem, {"auto", "auto", 1}));
         steppers_.back()->advance(std::llround(time / problem.step));
       }
     }
@@ -138,7 +138,7 @@ class WholeCourses {
   static std::optional<double> time_of(const Problem& problem, std::int64_t steps) {
     constexpr std::size_t turns = 3;
     constexpr double blown_up = 100.0;  // times its energy, as for bounce stability
-    const auto stepper = make_stepper(problem, make_plan(problem, {"auto", "auto", 1}));
+    const auto stepper = make_stepper(problem, {"auto", "auto", 1});
     const Snapshot start = stepper->save();
     std::vector<double> times(turns);
     for (double& time : times) {

@@ -1,21 +1,21 @@
 // bounce extremes: scenes at the edge of what a program can bear, each with what it should do.
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/world/commands.hpp"
 #include "driver/extremes/extreme_table.hpp"
+#include "driver/world/commands.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/world/near_miss.hpp"
+#include "kernels/stepping/threads.hpp"
 
 namespace bounce {
 namespace {
@@ -111,16 +111,14 @@ void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& f
   std::stable_sort(order.begin(), order.end(), [](const ExtremeEntry* a, const ExtremeEntry* b) {
     return steps_of(a->row) > steps_of(b->row);
   });
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (interrupted()) continue;
+  std::mutex one_at_a_time;
+  parallel_for(order.size(), threads, [&](std::size_t i) {
+    if (interrupted()) return;
     order[i]->result = run_extreme_row(order[i]->row, folder);
-#pragma omp critical
-    {
-      fmt::print(stderr, "{}\n", line_of(*order[i]));
-      std::fflush(stderr);
-    }
-  }
+    const std::lock_guard lock(one_at_a_time);
+    fmt::print(stderr, "{}\n", line_of(*order[i]));
+    std::fflush(stderr);
+  });
 }
 
 void compare_rows(std::vector<ExtremeEntry>& entries, const fs::path& folder) {
@@ -157,7 +155,7 @@ int extremes(const Options& options, const std::string& command_line) {
   }
   catch_interrupts();
   const RunsFolder folder(options.runs);
-  run_rows(entries, options.threads > 0 ? options.threads : omp_get_max_threads(), folder.path());
+  run_rows(entries, options.threads, folder.path());
   if (interrupted()) {
     fmt::print(stderr, "bounce: interrupted; nothing is written\n");
     return exit_interrupted;

@@ -10,28 +10,27 @@
 #include <fmt/ranges.h>
 
 #include "driver/accuracy/advice.hpp"
-#include "driver/world/commands.hpp"
 #include "driver/run/extended_xyz.hpp"
-#include "driver/world/files.hpp"
-#include "driver/world/interrupt.hpp"
 #include "driver/run/ledger_csv.hpp"
-#include "driver/scene/load_problem.hpp"
-#include "driver/scene/memory_check.hpp"
 #include "driver/run/monitor_csv.hpp"
-#include "driver/world/progress.hpp"
-#include "driver/world/run_directory.hpp"
 #include "driver/run/run_gauges.hpp"
 #include "driver/run/run_loop.hpp"
 #include "driver/run/run_record.hpp"
 #include "driver/run/run_summary.hpp"
+#include "driver/run/trouble_text.hpp"
+#include "driver/scene/load_problem.hpp"
+#include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/scene/state_file.hpp"
 #include "driver/scene/step_check.hpp"
-#include "driver/run/trouble_text.hpp"
-#include "kernels/contact/located.hpp"
-#include "verify/watch/booking_stepper.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/files.hpp"
+#include "driver/world/interrupt.hpp"
+#include "driver/world/progress.hpp"
+#include "driver/world/run_directory.hpp"
 #include "verify/oracle/listing_frame.hpp"
 #include "verify/oracle/oracle_stepper.hpp"
+#include "verify/watch/booking_stepper.hpp"
 
 namespace bounce {
 namespace {
@@ -189,7 +188,8 @@ void print_summary(const RunRecord& record, const Options& options) {
   const RunResult& result = record.result;
   fmt::print("{}\n", record.scene.title.empty() ? record.scene_name : record.scene.title);
   fmt::print("plan: kernel {}, vector {}, {} lane(s), {} thread(s); law {}; walls {}\n",
-             plan.kernel, name_of(plan.vector), plan.lanes, plan.threads, plan.law, plan.walls);
+             kernel_name(plan), name_of(plan.vector), plan.lanes, plan.threads, plan.law,
+             plan.walls);
   if (!plan.left_out.empty()) fmt::print("left out: {}\n", fmt::join(plan.left_out, ", "));
   fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
              record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
@@ -251,7 +251,7 @@ int run(const Options& options, const std::string& command_line) {
   std::unique_ptr<Stepper> stepper;
   const WallBooks* books = nullptr;
   if (options.ledger) {
-    if (is_located(problem.walls)) {
+    if (record.plan.cuts_steps) {
       throw InputError(
           "--ledger: allowed is wall.contact listing or resolved; located contact cuts steps, and "
           "these books are of whole ones (the monitor's ledger is there in any case)");
@@ -260,7 +260,7 @@ int run(const Options& options, const std::string& command_line) {
     books = &booking->books();
     stepper = std::move(booking);
   } else {
-    stepper = make_stepper(problem, record.plan, entries);
+    stepper = record.plan.make_stepper();
   }
   problem.initial = State();  // the stepper holds the particles now
 

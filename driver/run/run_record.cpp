@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "driver/world/origin.hpp"
 #include "driver/run/run_summary.hpp"
 #include "driver/run/trouble_text.hpp"
+#include "driver/world/origin.hpp"
 
 namespace bounce {
 namespace {
@@ -16,10 +16,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json plan_json(const Plan& plan) {
-  return {{"kernel", plan.kernel},     {"vector", std::string(name_of(plan.vector))},
-          {"lanes", plan.lanes},       {"threads", plan.threads},
-          {"law", plan.law},           {"walls", plan.walls},
-          {"left_out", plan.left_out}, {"reasons", plan.reasons}};
+  return {{"kernel", plan.kernel},
+          {"inside", plan.inside.empty() ? Json() : Json(plan.inside)},
+          {"vector", std::string(name_of(plan.vector))},
+          {"lanes", plan.lanes},
+          {"threads", plan.threads},
+          {"law", plan.law},
+          {"walls", plan.walls},
+          {"left_out", plan.left_out},
+          {"reasons", plan.reasons}};
 }
 
 Json origin_json() {

@@ -8,7 +8,6 @@
 
 #include "kernels/contact/contact_course.hpp"
 #include "kernels/contact/method_flow.hpp"
-#include "kernels/rings/mirror_symmetry.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
 
 namespace bounce {
@@ -18,23 +17,21 @@ constexpr std::int64_t most_steps = 1 << 16;  // of a flight between two looks
 // A flight costs a look, a restart and its last stage: as much as some evaluations near a wall.
 constexpr std::int64_t fewest_evaluations = 32;
 
-Problem open_problem(Problem problem) {
-  problem.walls.clear();
-  return problem;
+Model without_walls(Model model) {
+  model.walls.clear();
+  return model;
 }
 
 class LocatedStepper final : public Stepper {
  public:
-  LocatedStepper(const Problem& problem, bool halves,
-                 const std::function<std::unique_ptr<Stepper>(const Problem&)>& make)
+  LocatedStepper(const Problem& problem, std::unique_ptr<Stepper> inside)
       : problem_(problem),
-        open_(open_problem(problem)),
+        open_(without_walls(problem)),
         fewest_steps_((fewest_evaluations + problem.method->evaluations - 1) /
                       problem.method->evaluations),
-        flight_(make(open_problem(problem))),
+        flight_(std::move(inside)),
         flow_(problem_),
         course_(problem_, flow_),
-        images_(halves ? mirror_images(problem) : std::vector<std::size_t>()),
         state_(problem.initial) {}
 
   void advance(std::int64_t steps) override {
@@ -48,20 +45,20 @@ class LocatedStepper final : public Stepper {
   [[nodiscard]] Snapshot save() const override {
     if (!flies_) return {state_, false, step_};
     Snapshot snapshot = flight_->save();
-    snapshot.flies_until = flies_until_;
+    snapshot.own = {flies_until_};
     return snapshot;
   }
   void restore(const Snapshot& snapshot) override {
     step_ = snapshot.step;
-    flies_ = snapshot.flies_until >= 0;
-    flies_until_ = snapshot.flies_until;
+    flies_ = !snapshot.own.empty();
+    flies_until_ = flies_ ? snapshot.own.front() : -1;
     if (flies_) {
       flight_->restore(snapshot);
       return;
     }
     state_ = snapshot.state;
     if (snapshot.stage_held) finish_step(open_, state_);  // another kernel's
-    make_symmetric(images_, state_);
+    flight_->conform(state_);
   }
   [[nodiscard]] std::int64_t step() const override { return step_; }
 
@@ -87,7 +84,7 @@ class LocatedStepper final : public Stepper {
     flies_ = false;
     flies_until_ = -1;
     course_.step(problem_.step, state_);
-    make_symmetric(images_, state_);
+    flight_->conform(state_);
     ++step_;
   }
 
@@ -124,7 +121,6 @@ class LocatedStepper final : public Stepper {
   std::unique_ptr<Stepper> flight_;
   MethodFlow flow_;
   ContactCourse<MethodFlow> course_;
-  std::vector<std::size_t> images_;
   State state_;                    // unless it flies
   std::vector<double> pull_;       // accelerations at the last look
   bool flies_ = false;             // the state is flight_'s
@@ -132,15 +128,7 @@ class LocatedStepper final : public Stepper {
   std::int64_t step_ = 0;
 };
 
-}  // namespace
-
-bool is_located(const std::vector<Wall>& walls) {
-  return std::any_of(walls.begin(), walls.end(),
-                     [](const Wall& wall) { return wall.contact == Contact::located; });
-}
-
-std::string located_refusal(const Problem& problem) {
-  if (!is_located(problem.walls)) return {};
+std::string refusal_of(const Problem& problem) {
   // Whatever comes to rest on a wall with alpha = 1 slides.
   const bool slides = std::any_of(problem.walls.begin(), problem.walls.end(), [](const Wall& wall) {
     return wall.alpha == 1.0 && wall.beta != -1.0;
@@ -152,15 +140,34 @@ std::string located_refusal(const Problem& problem) {
   return {};
 }
 
-Problem as_resolved(Problem problem) {
-  for (Wall& wall : problem.walls) wall.contact = Contact::resolved;
-  return problem;
+Preparation prepare_located(const Problem& problem, const KernelRequest& request,
+                            const PrepareInside& prepare_inside) {
+  if (std::string why = refusal_of(problem); !why.empty()) return Refusal{why};
+  const auto resolved = std::make_shared<Problem>(problem);
+  for (Wall& wall : resolved->walls) wall.contact = Contact::resolved;
+  Preparation inside = prepare_inside(*resolved, request);
+  if (std::holds_alternative<Refusal>(inside)) return inside;
+  Plan plan = std::move(std::get<Plan>(inside));
+  plan.inside = plan.kernel;
+  plan.cuts_steps = true;
+  plan.walls = (problem.walls.size() == 1 ? "one" : std::to_string(problem.walls.size())) +
+               std::string(", contact located");
+  plan.reasons.emplace_back("contact located: near a wall, one thread in plain code");
+  plan.make_stepper = [&problem, resolved, make = plan.make_stepper] {
+    return std::make_unique<LocatedStepper>(problem, make());
+  };
+  return plan;
 }
 
-std::unique_ptr<Stepper> make_located(
-    const Problem& problem, bool halves,
-    const std::function<std::unique_ptr<Stepper>(const Problem&)>& make) {
-  return std::make_unique<LocatedStepper>(problem, halves, make);
+}  // namespace
+
+KernelEntry located_entry() {
+  return {.name = "located",
+          .description = "cuts a step where a contact begins or ends; wraps another kernel",
+          .wraps = true,
+          .contacts = {Contact::located},
+          .memory = {.a_particle = 300.0, .an_entry = 0.0},
+          .prepare = prepare_located};
 }
 
 }  // namespace bounce

@@ -12,14 +12,16 @@
 //     the step's start to the contact and from there on. A particle's own path put right
 //     afterwards, as by the resolved rule, leaves an error of first order, and a ball multiplies
 //     it by 50 000 up to the end (bounce reference).
-//  2. So a ball that is clear of the walls runs on the plan's kernel, without any wall test, and
-//     one that is near runs step by step in contact_course.hpp, in plain loops.
+//  2. So a ball that is clear of the walls runs on the kernel inside, and one that is near runs
+//     step by step in contact_course.hpp, in plain loops.
 //  3. Which of the two follows from the state alone: for how many steps it is far enough away is
 //     decided when the last decision has run out, and a snapshot carries what is left of it. So a
 //     run has the same bits for any threads, vectors and restarts.
-//  4. For the kernel of half balls one half decides near a wall, too.
+//  4. A kernel that holds less than any state, as that of half balls, says so (Stepper::conform):
+//     its form is kept near a wall, too.
 //  5. How far a particle gets is estimated: four times the ball's greatest speed, and twice the way
-//     of its greatest acceleration, whatever their directions. A vibration has one or the other.
+//     of its greatest acceleration, whatever their directions. A vibration has one or the other. The kernel inside has the
+//     resolved rule, so what should come to a wall all the same is met there.
 //
 // Cost: near a wall a step takes some 1.5 us an evaluation for the paper's ball, four to ten times
 // the kernels'. The ball is near for 5 to 30 % of the examples.
@@ -33,30 +35,13 @@
 // contacts (stages that step back lift what rests off the wall, so methods above order 2 lose it).
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "kernels/model/problem.hpp"
-#include "kernels/stepping/stepper.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 
-/// True if the walls' contact is "located" (validate() lets all have it or none).
-bool is_located(const std::vector<Wall>& walls);
-
-/// Why such a problem cannot be run; "" if it can, or has no located contact.
-std::string located_refusal(const Problem& problem);
-
-/// The problem as kernels plan for it: which of them can follow it is a matter of what its walls
-/// do, and of that the resolved rule does the same.
-Problem as_resolved(Problem problem);
-
-/// Calls `make` for the problem without walls. `halves`: what it makes knows half of a symmetric
-/// ball.
-std::unique_ptr<Stepper> make_located(
-    const Problem& problem, bool halves,
-    const std::function<std::unique_ptr<Stepper>(const Problem&)>& make);
+/// Registry entry of `located`: it wraps the kernel that a plan picks for the same problem with
+/// resolved contact, and is for walls that all have contact "located" (validate() lets all have it
+/// or none).
+KernelEntry located_entry();
 
 }  // namespace bounce

@@ -6,7 +6,8 @@
 
 #include "kernels/csr/csr.hpp"
 #include "kernels/csr/csr_physics-inl.hpp"
-#include "kernels/stepping/scene_forms.hpp"
+#include "kernels/stepping/law_form.hpp"
+#include "kernels/stepping/threads.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -15,24 +16,24 @@ namespace HWY_NAMESPACE {
 using D = hn::ScalableTag<double>;
 
 template <class Law>
-std::unique_ptr<Stepper> csr_of(const Problem& problem, const Plan& plan) {
-  return std::make_unique<SlicedStepper<FastPhysics<D, Law>>>(problem, plan.threads);
+std::unique_ptr<Stepper> csr_of(const Problem& problem, int threads) {
+  return std::make_unique<SlicedStepper<FastPhysics<D, Law>>>(problem, threads);
 }
 
-std::unique_ptr<Stepper> make_csr(const Problem& problem, const Plan& plan) {
+std::unique_ptr<Stepper> make_csr(const Problem& problem, int threads) {
   switch (law_form(problem.law)) {
     case LawForm::three_five:
-      return csr_of<FixedLaw<4, 2>>(problem, plan);
+      return csr_of<FixedLaw<4, 2>>(problem, threads);
     case LawForm::seven_thirteen:
-      return csr_of<FixedLaw<8, 6>>(problem, plan);
+      return csr_of<FixedLaw<8, 6>>(problem, threads);
     case LawForm::two_four:
-      return csr_of<FixedLaw<3, 2>>(problem, plan);
+      return csr_of<FixedLaw<3, 2>>(problem, threads);
     case LawForm::odd:
-      return csr_of<OddLaw>(problem, plan);
+      return csr_of<OddLaw>(problem, threads);
     case LawForm::general:
       break;
   }
-  return csr_of<GeneralLaw>(problem, plan);
+  return csr_of<GeneralLaw>(problem, threads);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -44,17 +45,17 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
-std::string prepare_csr(const Problem& problem, const PlanRequest& request, Plan& plan) {
-  plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
+Preparation prepare_csr(const Problem& problem, const KernelRequest& request,
+                        const PrepareInside&) {
+  Plan plan = plan_for(problem);
+  plan.vector = request.vector;
+  plan.lanes = lanes_of(plan.vector);
   const bool large = problem.initial.size() >= particles_worth_a_team;
-  plan.threads = request.threads != 0 ? request.threads : large ? omp_get_max_threads() : 1;
+  plan.threads = request.threads != 0 ? request.threads : large ? default_threads() : 1;
   plan.reasons.emplace_back("csr runs any neighbour list, law and walls");
-  return {};
-}
-
-std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
-  return plan.vector == VectorTarget::avx512 ? N_AVX3::make_csr(problem, plan)
-                                             : N_AVX2::make_csr(problem, plan);
+  plan.make_stepper = [&problem, make = BOUNCE_COMPILED_FOR(plan.vector, make_csr),
+                       threads = plan.threads] { return make(problem, threads); };
+  return plan;
 }
 
 }  // namespace
@@ -62,10 +63,8 @@ std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
 KernelEntry csr_entry() {
   return {.name = "csr",
           .description = "any neighbour list, any law, any walls; threads over particles",
-          .automatic = true,
           .memory = sliced_memory,
-          .prepare = prepare_csr,
-          .make = make};
+          .prepare = prepare_csr};
 }
 
 }  // namespace bounce

@@ -1,7 +1,7 @@
 // The csr kernel as the plan sees it; csr_physics-inl.hpp says how it works.
 #pragma once
 
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 

@@ -24,10 +24,10 @@
 #include <optional>
 #include <vector>
 
-#include "kernels/stepping/particle_store.hpp"
 #include "kernels/csr/slices.hpp"
-#include "kernels/stepping/spin.hpp"
+#include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
+#include "kernels/stepping/threads.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {

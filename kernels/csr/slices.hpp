@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "kernels/model/neighbours.hpp"
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 

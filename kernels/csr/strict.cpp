@@ -16,9 +16,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "kernels/model/wall_rule.hpp"
 #include "kernels/csr/sliced_stepper-inl.hpp"
 #include "kernels/csr/strict.hpp"
+#include "kernels/model/wall_rule.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -134,23 +134,24 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
-std::string prepare_strict(const Problem& problem, const PlanRequest& request, Plan& plan) {
+Preparation prepare_strict(const Problem& problem, const KernelRequest& request,
+                           const PrepareInside&) {
   if (!(problem.law.p == 3.0 && problem.law.q == 5.0)) {
-    return "the listing's operations are those of the law (3, 5)";
+    return Refusal{"the listing's operations are those of the law (3, 5)"};
   }
-  if (any_resolved(problem.walls)) return "the listing's walls are those of contact \"listing\"";
-  if (problem.method->name != "listing") return "the listing's scheme is the method \"listing\"";
-  plan.lanes = plan.vector == VectorTarget::avx512 ? 8 : 4;
+  if (problem.method->name != "listing") {
+    return Refusal{"the listing's scheme is the method \"listing\""};
+  }
+  Plan plan;
+  plan.vector = request.vector;
+  plan.lanes = lanes_of(plan.vector);
   plan.threads = request.threads == 0 ? 1 : request.threads;
   plan.law = "(3, 5) as the listing writes it";
   plan.walls = "as the listing and the paper write them";
   plan.left_out = {"square root"};
-  return {};
-}
-
-std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
-  return plan.vector == VectorTarget::avx512 ? N_AVX3::make_strict(problem, plan.threads)
-                                             : N_AVX2::make_strict(problem, plan.threads);
+  plan.make_stepper = [&problem, make = BOUNCE_COMPILED_FOR(plan.vector, make_strict),
+                       threads = plan.threads] { return make(problem, threads); };
+  return plan;
 }
 
 }  // namespace
@@ -159,9 +160,10 @@ KernelEntry strict_entry() {
   return {.name = "strict",
           .description = "the listing's operations in the listing's order: the oracle's bits",
           .automatic = false,
+          .has_listings_bits = true,
+          .contacts = {Contact::listing},
           .memory = sliced_memory,
-          .prepare = prepare_strict,
-          .make = make};
+          .prepare = prepare_strict};
 }
 
 }  // namespace bounce

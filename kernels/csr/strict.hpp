@@ -1,7 +1,7 @@
 // The strict kernel as the plan sees it; strict.cpp says how it works.
 #pragma once
 
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 

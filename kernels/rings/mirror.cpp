@@ -19,10 +19,10 @@ namespace HWY_NAMESPACE {
 using D = hn::ScalableTag<double>;
 
 std::unique_ptr<Stepper> make_mirror(const Problem& problem, const RingShape& shape,
-                                     std::int64_t sum, const Plan& plan) {
+                                     std::int64_t sum, int threads) {
   return with_ring_form(
       law_form(problem.law), shape.rings, [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
-        return std::make_unique<MirrorStepper<D, Law, R>>(problem, shape, sum, plan.threads);
+        return std::make_unique<MirrorStepper<D, Law, R>>(problem, shape, sum, threads);
       });
 }
 
@@ -37,24 +37,28 @@ namespace {
 
 constexpr std::int64_t fewest_columns = 3;  // of a thread: RingTeam<Columns, MirrorHalf> says so
 
-std::string prepare_mirror(const Problem& problem, const PlanRequest& request, Plan& plan) {
+Preparation prepare_mirror(const Problem& problem, const KernelRequest& request,
+                           const PrepareInside&) {
   const RingForm form = find_ring_form(problem);
-  if (!form.refusal.empty()) return form.refusal;
-  const MirrorAxis axis = find_mirror_axis(problem, form.shape);
-  if (!axis.refusal.empty()) return "it is not left-right symmetric: " + axis.refusal;
-  const std::int64_t half = form.shape.per_ring / 2;
-  plan.lanes = plan.vector == VectorTarget::avx512 && half >= 2 * 8 ? 8 : 4;
-  if (half < std::int64_t{2} * plan.lanes) {
-    return std::to_string(half) + " columns of half a ball are less than two a lane";
+  if (!form.refusal.empty()) return Refusal{form.refusal};
+  const RingShape& shape = form.shape;
+  const MirrorAxis axis = find_mirror_axis(problem, shape);
+  if (!axis.refusal.empty()) {
+    return Refusal{"it is not left-right symmetric: " + axis.refusal};
+  }
+  const std::int64_t half = shape.per_ring / 2;
+  Plan plan = plan_for(problem);
+  if (std::string why = deal_columns(half, 2, false, request, plan); !why.empty()) {
+    return Refusal{why};
   }
   const std::int64_t columns = half / plan.lanes + 1;
-  plan.threads = team_size(request.threads, columns);
+  plan.threads = request.threads == 0 ? team_size(columns) : request.threads;
   if (const std::int64_t most = columns / fewest_columns; plan.threads > most) {
     plan.threads = static_cast<int>(std::max<std::int64_t>(1, most));
     plan.reasons.emplace_back(std::to_string(columns) + " columns of vectors are enough for " +
                               std::to_string(plan.threads) + " threads: a thread needs three");
   }
-  plan.multiplications = ring_multiplications(problem, form.shape.rings, columns);
+  plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   plan.reasons.emplace_back(
       "the ball, its walls and gravity are left-right symmetric: half of it "
       "is stepped, each bond once, no index, " +
@@ -62,14 +66,10 @@ std::string prepare_mirror(const Problem& problem, const PlanRequest& request, P
   plan.left_out.emplace_back("neighbour index and gathers");
   plan.left_out.emplace_back("the second computation of each bond");
   plan.left_out.emplace_back("the other half of the ball");
-  return {};
-}
-
-std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
-  const RingForm form = find_ring_form(problem);
-  const std::int64_t sum = find_mirror_axis(problem, form.shape).sum;
-  return plan.lanes == 8 ? N_AVX3::make_mirror(problem, form.shape, sum, plan)
-                         : N_AVX2::make_mirror(problem, form.shape, sum, plan);
+  plan.make_stepper = [&problem, shape, sum = axis.sum,
+                       make = BOUNCE_COMPILED_FOR(plan.vector, make_mirror),
+                       threads = plan.threads] { return make(problem, shape, sum, threads); };
+  return plan;
 }
 
 }  // namespace
@@ -77,10 +77,8 @@ std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
 KernelEntry mirror_entry() {
   return {.name = "mirror",
           .description = "half of a left-right symmetric ball of rings",
-          .automatic = true,
           .memory = {.a_particle = 32.0, .an_entry = 0.0},
-          .prepare = prepare_mirror,
-          .make = make};
+          .prepare = prepare_mirror};
 }
 
 }  // namespace bounce

@@ -1,7 +1,7 @@
 // The mirror kernel as the plan sees it; mirror_stepper-inl.hpp says how it works.
 #pragma once
 
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 

@@ -46,6 +46,8 @@ class MirrorStepper final : public StagedStepper {
     MirrorStepper::write(start.initial);
   }
 
+  void conform(State& state) const override { make_symmetric(shape_, sum_, state); }
+
  protected:
   HWY_NOINLINE void run(std::span<const StageConstants> stages, std::int64_t steps) override {
     std::vector<Constants> constants;

@@ -28,29 +28,18 @@ std::string not_symmetric(const State& state, const RingShape& shape, std::int64
   return {};
 }
 
-std::vector<std::size_t> mirror_images(const Problem& problem) {
-  const auto shape = find_rings(problem.bonds, any_rings);
-  if (!shape) return {};
-  const MirrorAxis axis = find_mirror_axis(problem, *shape);
-  if (!axis.refusal.empty()) return {};
-  std::vector<std::size_t> images;
-  for (int ring = 0; ring < shape->rings; ++ring) {
-    for (std::int64_t k = 0; k < shape->per_ring; ++k) {
-      images.push_back(static_cast<std::size_t>(ring * shape->per_ring +
-                                                mirror_image(*shape, axis.sum, ring, k)));
+void make_symmetric(const RingShape& shape, std::int64_t sum, State& state) {
+  for (int ring = 0; ring < shape.rings; ++ring) {
+    for (std::int64_t k = 0; k < shape.per_ring; ++k) {
+      const std::int64_t image = mirror_image(shape, sum, ring, k);
+      if (image < k) continue;
+      const auto i = static_cast<std::size_t>(ring * shape.per_ring + k);
+      const auto j = static_cast<std::size_t>(ring * shape.per_ring + image);
+      state.x[j] = i == j ? 0.0 : -state.x[i];
+      state.y[j] = state.y[i];
+      state.vx[j] = i == j ? 0.0 : -state.vx[i];
+      state.vy[j] = state.vy[i];
     }
-  }
-  return images;
-}
-
-void make_symmetric(const std::vector<std::size_t>& images, State& state) {
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const std::size_t j = images[i];
-    if (j < i) continue;
-    state.x[j] = i == j ? 0.0 : -state.x[i];
-    state.y[j] = state.y[i];
-    state.vx[j] = i == j ? 0.0 : -state.vx[i];
-    state.vy[j] = state.vy[i];
   }
 }
 

@@ -2,10 +2,8 @@
 // gives 4.5 h with symmetry where the whole ball of Example 1 took 6.9 h.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "kernels/model/problem.hpp"
 #include "kernels/rings/ring_shape.hpp"
@@ -26,12 +24,9 @@ MirrorAxis find_mirror_axis(const Problem& problem, const RingShape& shape);
 /// Why `state` is not its own mirror image about that axis, or nothing.
 std::string not_symmetric(const State& state, const RingShape& shape, std::int64_t sum);
 
-/// Of each particle the one that is its image; empty if the problem is not symmetric.
-std::vector<std::size_t> mirror_images(const Problem& problem);
-
-/// Makes a state that is symmetric but for roundings so to the bit: of a pair of `images` the first
-/// one decides.
-void make_symmetric(const std::vector<std::size_t>& images, State& state);
+/// Makes a state that is symmetric but for roundings so to the bit: of two images the one with the
+/// lower number decides.
+void make_symmetric(const RingShape& shape, std::int64_t sum, State& state);
 
 /// The image of column `column` of ring `ring`.
 inline std::int64_t mirror_image(const RingShape& shape, std::int64_t sum, int ring,

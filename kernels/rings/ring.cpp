@@ -16,12 +16,11 @@ namespace HWY_NAMESPACE {
 // One number of lanes a target: the widest it has.
 using D = hn::ScalableTag<double>;
 
-std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape,
-                                   const Plan& plan) {
-  return with_ring_form(
-      law_form(problem.law), shape.rings, [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
-        return std::make_unique<RingStepper<D, Law, R>>(problem, shape, plan.threads);
-      });
+std::unique_ptr<Stepper> make_ring(const Problem& problem, const RingShape& shape, int threads) {
+  return with_ring_form(law_form(problem.law), shape.rings,
+                        [&]<class Law, int R>() -> std::unique_ptr<Stepper> {
+                          return std::make_unique<RingStepper<D, Law, R>>(problem, shape, threads);
+                        });
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -33,19 +32,20 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
-std::string prepare_ring(const Problem& problem, const PlanRequest& request, Plan& plan) {
+Preparation prepare_ring(const Problem& problem, const KernelRequest& request,
+                         const PrepareInside&) {
   const RingForm form = find_ring_form(problem);
-  if (!form.refusal.empty()) return form.refusal;
+  if (!form.refusal.empty()) return Refusal{form.refusal};
   const RingShape& shape = form.shape;
-  plan.lanes = ring_lanes(shape.per_ring, plan.vector);
-  if (plan.lanes == 0) {
-    return std::to_string(shape.per_ring) + " columns cannot be dealt evenly to 4 lanes";
+  Plan plan = plan_for(problem);
+  if (std::string why = deal_columns(shape.per_ring, 2, true, request, plan); !why.empty()) {
+    return Refusal{why};
   }
   const std::int64_t columns = shape.per_ring / plan.lanes;
-  plan.threads = team_size(request.threads, columns);
+  plan.threads = request.threads == 0 ? team_size(columns) : request.threads;
   if (plan.threads > 1 && plan.threads > columns / 2) {
-    return std::to_string(plan.threads) + " threads are too many for its " +
-           std::to_string(columns) + " columns of vectors: a thread needs two";
+    return Refusal{std::to_string(plan.threads) + " threads are too many for its " +
+                   std::to_string(columns) + " columns of vectors: a thread needs two"};
   }
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   plan.reasons.push_back("the neighbour list is " + std::to_string(shape.rings) +
@@ -53,14 +53,9 @@ std::string prepare_ring(const Problem& problem, const PlanRequest& request, Pla
                          std::to_string(plan.lanes) + " sectors side by side");
   plan.left_out.emplace_back("neighbour index and gathers");
   plan.left_out.emplace_back("the second computation of each bond");
-  return {};
-}
-
-std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
-  const auto shape = find_rings(problem.bonds);
-  if (!shape) return nullptr;
-  return plan.lanes == 8 ? N_AVX3::make_ring(problem, *shape, plan)
-                         : N_AVX2::make_ring(problem, *shape, plan);
+  plan.make_stepper = [&problem, shape, make = BOUNCE_COMPILED_FOR(plan.vector, make_ring),
+                       threads = plan.threads] { return make(problem, shape, threads); };
+  return plan;
 }
 
 }  // namespace
@@ -68,10 +63,8 @@ std::unique_ptr<Stepper> make(const Problem& problem, const Plan& plan) {
 KernelEntry ring_entry() {
   return {.name = "ring",
           .description = "rings with constant offsets: each bond once, no index",
-          .automatic = true,
           .memory = {.a_particle = 32.0, .an_entry = 0.0},
-          .prepare = prepare_ring,
-          .make = make};
+          .prepare = prepare_ring};
 }
 
 }  // namespace bounce

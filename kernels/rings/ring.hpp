@@ -1,7 +1,7 @@
 // The ring kernel as the plan sees it; ring_stepper-inl.hpp says how it works.
 #pragma once
 
-#include "kernels/plan/plan.hpp"
+#include "kernels/stepping/kernel.hpp"
 
 namespace bounce {
 

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "kernels/rings/ring_columns-inl.hpp"
-#include "kernels/stepping/scene_forms.hpp"
+#include "kernels/stepping/law_form.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {

@@ -1,12 +1,12 @@
 #include "kernels/rings/ring_forms.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "kernels/model/method.hpp"
-#include "kernels/stepping/scene_forms.hpp"
+#include "kernels/stepping/law_form.hpp"
+#include "kernels/stepping/threads.hpp"
 
 namespace bounce {
 namespace {
@@ -36,12 +36,22 @@ bool has_ring_law(LawForm form) {
          form == LawForm::two_four;
 }
 
-int ring_lanes(std::int64_t per_ring, VectorTarget target) {
-  const auto fits = [per_ring](int lanes) {
-    return per_ring % lanes == 0 && per_ring / lanes >= 2;
-  };
-  if (target == VectorTarget::avx512 && fits(8)) return 8;
-  return fits(4) ? 4 : 0;
+std::string deal_columns(std::int64_t columns, std::int64_t fewest, bool even,
+                         const KernelRequest& request, Plan& plan) {
+  std::vector<VectorTarget> targets{request.vector};
+  if (!request.vector_is_forced && request.vector == VectorTarget::avx512) {
+    targets.push_back(VectorTarget::avx2);
+  }
+  for (const VectorTarget target : targets) {
+    const int lanes = lanes_of(target);
+    if (columns < fewest * lanes || (even && columns % lanes != 0)) continue;
+    plan.vector = target;
+    plan.lanes = lanes;
+    return {};
+  }
+  const std::string lanes = std::to_string(lanes_of(targets.back()));
+  return std::to_string(columns) + " columns are not dealt " + (even ? "evenly " : "") + "to " +
+         lanes + " lanes, " + std::to_string(fewest) + " at least each";
 }
 
 RingForm find_ring_form(const Problem& problem) {
@@ -54,13 +64,13 @@ RingForm find_ring_form(const Problem& problem) {
   return {*shape, refuses_law(law_form(problem.law), shape->rings)};
 }
 
-int team_size(int asked, std::int64_t columns) {
+int team_size(std::int64_t columns) {
   constexpr std::int64_t columns_that_pay = 7;  // some 0.15 us
   constexpr std::int64_t small = 256;           // columns: 100 kB with 4 lanes and three rings
-  if (asked != 0) return asked;
-  const std::int64_t most = columns < small ? 2 : omp_get_num_procs();
-  const std::int64_t fit = std::min<std::int64_t>(omp_get_num_procs(), columns / columns_that_pay);
-  return static_cast<int>(std::clamp<std::int64_t>(fit, 1, most));
+  const std::int64_t threads = default_threads();
+  const std::int64_t most = columns < small ? 2 : threads;
+  return static_cast<int>(
+      std::clamp<std::int64_t>(std::min(threads, columns / columns_that_pay), 1, most));
 }
 
 RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
@@ -81,7 +91,7 @@ double ring_multiplications(const Problem& problem, int rings, std::int64_t colu
   return static_cast<double>(columns) * a_column * problem.method->evaluations;
 }
 
-double rings_multiplications(const Problem& problem, int rings, std::int64_t columns) {
+double annulus_multiplications(const Problem& problem, int rings, std::int64_t columns) {
   const int a_bond = 2 + law_multiplications(law_form(problem.law)) + 4;
   constexpr int to_share_among_three = 6;
   const int a_ring = 3 * a_bond + to_share_among_three + 2;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "kernels/plan/plan.hpp"
 #include "kernels/rings/ring_shape.hpp"
-#include "kernels/stepping/scene_forms.hpp"
+#include "kernels/stepping/kernel.hpp"
+#include "kernels/stepping/law_form.hpp"
 
 namespace bounce {
 
@@ -22,14 +22,15 @@ RingForm find_ring_form(const Problem& problem);
 /// Whether the ring kernels are compiled for this law.
 bool has_ring_law(LawForm form);
 
-/// The most lanes of the target that so many columns can be dealt to evenly, two columns a lane at
-/// least: 8, 4, or 0 if neither.
-int ring_lanes(std::int64_t per_ring, VectorTarget target);
+/// Deals columns to lanes, as many as the target of the request has, or four where those do not come
+/// out even and nobody forced the target: fills lanes and vector of the plan. Why it cannot, or "".
+/// `fewest`: columns a lane must have. `even`: no lane may have more than another.
+std::string deal_columns(std::int64_t columns, std::int64_t fewest, bool even,
+                         const KernelRequest& request, Plan& plan);
 
-/// The threads asked for, or, for 0, as many as pay: a core each, at least so many columns of
-/// vectors each that a hand-shake is short beside them, and no more than two for a ball that one
-/// core's cache holds.
-int team_size(int asked, std::int64_t columns);
+/// As many threads as pay: each has at least so many columns of vectors that a hand-shake is short
+/// beside them, and there are no more than two for a ball that one core's cache holds.
+int team_size(std::int64_t columns);
 
 /// How the columns of a ring are gone through:
 ///   loop   by one thread; the ball stays in the second cache
@@ -42,7 +43,7 @@ RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a
 /// Multiplications and multiply-adds of whole vectors that `columns` columns take: what the ports
 /// must do at least.
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns);
-/// The same of the kernel rings.
-double rings_multiplications(const Problem& problem, int rings, std::int64_t columns);
+/// The same of the kernel annulus.
+double annulus_multiplications(const Problem& problem, int rings, std::int64_t columns);
 
 }  // namespace bounce

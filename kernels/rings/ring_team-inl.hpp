@@ -47,10 +47,10 @@
 #include <vector>
 
 #include "kernels/rings/faster_of_two.hpp"
-#include "kernels/stepping/particle_store.hpp"
 #include "kernels/rings/ring_columns-inl.hpp"
 #include "kernels/rings/ring_forms-inl.hpp"
-#include "kernels/stepping/spin.hpp"
+#include "kernels/stepping/particle_store.hpp"
+#include "kernels/stepping/threads.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {

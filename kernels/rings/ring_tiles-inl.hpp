@@ -34,10 +34,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "kernels/stepping/particle_store.hpp"
 #include "kernels/rings/ring_columns-inl.hpp"
 #include "kernels/rings/ring_forms-inl.hpp"
-#include "kernels/stepping/spin.hpp"
+#include "kernels/stepping/particle_store.hpp"
+#include "kernels/stepping/threads.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "kernels/model/state.hpp"
 
@@ -10,9 +11,9 @@ namespace bounce {
 /// A state as a kernel holds it between steps: enough to go on, bit for bit, as if never stopped.
 struct Snapshot {
   State state;
-  bool stage_held = false;        ///< the last stage of the last step is still due (method.hpp)
-  std::int64_t step = 0;          ///< steps taken
-  std::int64_t flies_until = -1;  ///< of located.hpp: step up to which no wall is near; -1: one is
+  bool stage_held = false;          ///< the last stage of the last step is still due (method.hpp)
+  std::int64_t step = 0;            ///< steps taken
+  std::vector<std::int64_t> own{};  ///< what only the kernel that saved it understands
 };
 
 /// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.
@@ -26,6 +27,8 @@ class Stepper {
   /// For going back or going on elsewhere; restore() accepts any kernel's snapshot of this problem.
   [[nodiscard]] virtual Snapshot save() const = 0;
   virtual void restore(const Snapshot& snapshot) = 0;
+  /// Puts a state that is off by roundings from what this kernel can hold into that form.
+  virtual void conform(State& /*state*/) const {}
   /// Steps taken since the start.
   [[nodiscard]] virtual std::int64_t step() const = 0;
 };

@@ -1,7 +1,5 @@
 #include "verify/accuracy/accuracy.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "kernels/model/ball.hpp"
 #include "kernels/plan/plan.hpp"
+#include "kernels/stepping/threads.hpp"
 #include "verify/vibrations/spectrum.hpp"
 #include "verify/vibrations/stability_limit.hpp"
 
@@ -26,9 +25,9 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
   row.setting = setting;
   row.step = problem.step;
   row.steps = sampling.samples * setting.steps_a_sample;
-  row.kernel = plan.kernel;
+  row.kernel = kernel_name(plan);
   row.evaluations = row.steps * problem.method->evaluations;
-  const auto stepper = make_stepper(problem, plan);
+  const auto stepper = plan.make_stepper();
   const bool compares = !reference.energy.empty();
   CourseGauge gauge(problem, rings_of(scene),
                     compares ? std::optional(reference.free_samples) : std::nullopt);
@@ -74,8 +73,9 @@ Problem problem_of(const Scene& scene, const std::optional<State>& initial, cons
 
 std::string plan_refusal(const Scene& scene, const std::optional<State>& initial,
                          const Setting& setting, const Sampling& sampling) {
+  const Problem problem = problem_of(scene, initial, setting, sampling);
   try {
-    static_cast<void>(make_plan(problem_of(scene, initial, setting, sampling), one_thread));
+    static_cast<void>(make_plan(problem, one_thread));
   } catch (const PlanError& error) {
     return error.what();
   }
@@ -116,23 +116,15 @@ std::optional<std::vector<AccuracyRow>> measure_accuracy(
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return work(a) > work(b); });
   std::vector<AccuracyRow> rows(settings.size());
-  std::exception_ptr failure;
   std::atomic<bool> go_on = true;
-#pragma omp parallel for schedule(dynamic, 1) \
-    num_threads(threads == 0 ? omp_get_num_procs() : threads)
-  for (const std::size_t i : order) {
-    if (!go_on) continue;
-    try {
-      rows[i] = run(scene, initial, settings[i], sampling, reference);
-#pragma omp critical(bounce_accuracy)
-      if (!done(i)) go_on = false;
-    } catch (...) {
-#pragma omp critical(bounce_accuracy)
-      failure = std::current_exception();
-      go_on = false;
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  std::mutex one_at_a_time;
+  parallel_for(order.size(), threads, [&](std::size_t k) {
+    if (!go_on) return;
+    const std::size_t i = order[k];
+    rows[i] = run(scene, initial, settings[i], sampling, reference);
+    const std::lock_guard lock(one_at_a_time);
+    if (!done(i)) go_on = false;
+  });
   if (!go_on) return std::nullopt;
   return rows;
 }

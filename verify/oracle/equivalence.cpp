@@ -9,11 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "kernels/rings/mirror_symmetry.hpp"
 #include "kernels/plan/plan.hpp"
+#include "verify/oracle/oracle.hpp"
 #include "verify/watch/monitor.hpp"
 #include "verify/watch/observables.hpp"
-#include "verify/oracle/oracle.hpp"
 
 namespace bounce {
 namespace {
@@ -139,7 +138,7 @@ class Comparison {
     strict.kernel = "strict";
     strict.threads = 1;
     for (std::uint32_t copy = 1; copy <= disturbed_copies; ++copy) {
-      disturbed_.push_back({make_stepper(problem_, make_plan(problem_, strict)), {}, 0.0, {}});
+      disturbed_.push_back({make_stepper(problem_, strict), {}, 0.0, {}});
       disturbed_.back().stepper->restore({disturbed(problem_.initial, copy), false, 0});
     }
     first_.resize(kernels.size());
@@ -369,23 +368,20 @@ double ulps_between(double a, double b) {
 }
 
 std::vector<KernelUnderTest> kernels_under_test(const std::string& vector) {
+  choose_vector(vector);
   std::vector<KernelUnderTest> all;
-  for (const char* name : {"strict", "csr", "ring", "mirror"}) {
-    PlanRequest request;
-    request.kernel = name;
-    request.vector = vector;
-    request.threads = 1;
-    KernelUnderTest kernel{name, request.kernel == "strict", {}, {}};
-    kernel.make = [request](const Problem& problem) {
-      return make_stepper(problem, make_plan(problem, request));
-    };
-    if (request.kernel == "mirror") {
-      kernel.runs = [](const Problem& problem) {
-        const auto rings = find_rings(problem.bonds);
-        return rings && find_mirror_axis(problem, *rings).refusal.empty();
-      };
-    }
-    all.push_back(std::move(kernel));
+  for (const KernelEntry& entry : kernels()) {
+    const PlanRequest request{entry.name, vector, 1};
+    all.push_back({entry.name, entry.has_listings_bits,
+                   [request](const Problem& problem) { return make_stepper(problem, request); },
+                   [request](const Problem& problem) {
+                     try {
+                       static_cast<void>(make_plan(problem, request));
+                     } catch (const PlanError&) {
+                       return false;
+                     }
+                     return true;
+                   }});
   }
   return all;
 }

@@ -38,8 +38,8 @@ struct KernelUnderTest {
   std::function<bool(const Problem&)> runs{};
 };
 
-/// strict, csr, ring and, where the scene is symmetric, mirror, as plans would make them, with the
-/// given vector target ("auto", ...).
+/// Every registered kernel, on one thread, with the given vector target ("auto", ...), for the
+/// problems that it can step. Throws PlanError for a target that is not available.
 std::vector<KernelUnderTest> kernels_under_test(const std::string& vector = "auto");
 
 /// One line of the table. Numbers are printed as they were compared.

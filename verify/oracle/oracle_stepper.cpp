@@ -33,17 +33,19 @@ class OracleStepper final : public Stepper {
   std::int64_t step_ = 0;
 };
 
-std::string prepare(const Scene& scene, const PlanRequest& request, Plan& plan) {
-  if (std::string why = Oracle::refusal(scene); !why.empty()) return why;
-  if (request.threads > 1) return "the oracle is scalar, on one thread";
-  if (request.vector != "auto") return "the oracle is scalar, it uses no vectors";
-  plan.vector = VectorTarget::none;
-  plan.lanes = 1;
-  plan.threads = 1;
+Preparation prepare_oracle(const Scene& scene, const Problem& problem,
+                           const KernelRequest& request) {
+  if (std::string why = Oracle::refusal(scene); !why.empty()) return Refusal{why};
+  if (request.threads > 1) return Refusal{"the oracle is scalar, on one thread"};
+  if (request.vector_is_forced) return Refusal{"the oracle is scalar, it uses no vectors"};
+  Plan plan;
   plan.law = "p = 3, q = 5 as the listing writes it, every bond from both ends";
   plan.walls =
       scene.walls.empty() ? "none" : "the X axis as the listing has it, others in their axes";
-  return {};
+  plan.make_stepper = [scene, &problem] {
+    return std::make_unique<OracleStepper>(scene, problem.initial);
+  };
+  return plan;
 }
 
 }  // namespace
@@ -54,13 +56,28 @@ std::vector<KernelEntry> kernels_with_oracle(const Scene& scene) {
   all.push_back({.name = "oracle",
                  .description = "the paper's listing, scalar: the reference, slow",
                  .automatic = false,
+                 .has_listings_bits = true,
+                 .contacts = {Contact::listing},
                  .memory = {.a_particle = 32.0, .an_entry = 0.0},
-                 .prepare = [scene](const Problem&, const PlanRequest& request,
-                                    Plan& plan) { return prepare(scene, request, plan); },
-                 .make = [scene](const Problem& problem, const Plan&) -> std::unique_ptr<Stepper> {
-                   return std::make_unique<OracleStepper>(scene, problem.initial);
+                 .prepare = [scene](const Problem& problem, const KernelRequest& request,
+                                    const PrepareInside&) {
+                   return prepare_oracle(scene, problem, request);
                  }});
   return all;
+}
+
+std::unique_ptr<BookingStepper> make_booking_stepper(const Scene& scene, const Problem& problem,
+                                                     const Plan& plan) {
+  Scene open = scene;
+  open.walls.clear();
+  const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
+  const std::vector<KernelEntry> open_entries = kernels_with_oracle(open);
+  PlanRequest request{plan.kernel, std::string(name_of(plan.vector)), plan.threads};
+  if (plan.vector == VectorTarget::none) request.vector = "auto";
+  return std::make_unique<BookingStepper>(
+      problem, [request, entries, open_entries](const Problem& wanted) {
+        return make_stepper(wanted, request, wanted.walls.empty() ? open_entries : entries);
+      });
 }
 
 }  // namespace bounce

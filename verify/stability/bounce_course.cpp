@@ -1,14 +1,13 @@
 #include "verify/stability/bounce_course.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "kernels/stepping/threads.hpp"
 #include "verify/stability/energy_judge.hpp"
-#include "verify/watch/monitor.hpp"
 #include "verify/stability/vibration.hpp"
+#include "verify/watch/monitor.hpp"
 
 namespace bounce {
 namespace {
@@ -121,9 +120,8 @@ std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
       problems, steps, look_every,
       [&](std::size_t i, const State& state) { return courses[i].add(state); }, options);
   std::vector<BounceCourse> results(problems.size());
-#pragma omp parallel for schedule(dynamic, 1) \
-    num_threads(options.threads == 0 ? omp_get_num_procs() : options.threads)
-  for (std::size_t i = 0; i < problems.size(); ++i) results[i] = courses[i].result(good[i]);
+  parallel_for(problems.size(), options.threads,
+               [&](std::size_t i) { results[i] = courses[i].result(good[i]); });
   return results;
 }
 

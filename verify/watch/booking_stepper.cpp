@@ -7,10 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "kernels/model/powers.hpp"
 #include "kernels/model/wall_rule.hpp"
 #include "verify/watch/monitor.hpp"
-#include "verify/oracle/oracle_stepper.hpp"
-#include "kernels/model/powers.hpp"
 
 namespace bounce {
 namespace {
@@ -379,17 +378,5 @@ void BookingStepper::restore(const Snapshot& snapshot) {
 }
 
 std::int64_t BookingStepper::step() const { return with_walls_->step(); }
-
-std::unique_ptr<BookingStepper> make_booking_stepper(const Scene& scene, const Problem& problem,
-                                                     const Plan& plan) {
-  Scene open = scene;
-  open.walls.clear();
-  const std::vector<KernelEntry> entries = kernels_with_oracle(scene);
-  const std::vector<KernelEntry> open_entries = kernels_with_oracle(open);
-  return std::make_unique<BookingStepper>(
-      problem, [plan, entries, open_entries](const Problem& wanted) {
-        return make_stepper(wanted, plan, wanted.walls.empty() ? open_entries : entries);
-      });
-}
 
 }  // namespace bounce

@@ -28,9 +28,8 @@
 #include <memory>
 #include <vector>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/model/method.hpp"
-#include "kernels/plan/plan.hpp"
+#include "kernels/model/problem.hpp"
 #include "kernels/stepping/stepper.hpp"
 #include "verify/watch/wall_books.hpp"
 
@@ -81,10 +80,5 @@ class BookingStepper final : public Stepper {
   WallBooks books_;                          // and of those of the copy that is read out
   mutable std::deque<Saved> saved_;
 };
-
-/// The books of a plan's kernel. The oracle takes its walls from the scene, so the scene is needed
-/// beside the problem.
-std::unique_ptr<BookingStepper> make_booking_stepper(const Scene& scene, const Problem& problem,
-                                                     const Plan& plan);
 
 }  // namespace bounce

@@ -365,8 +365,8 @@ TEST(CourseTiming, ALocatedCourseThatHasBlownUpTellsNothing) {
 
 TEST(StepTiming, LeavesTheSteppersAsTheyWere) {
   const Problem problem = make_problem(impact_scene());
-  const auto a = make_stepper(problem, make_plan(problem, {"ring", "auto", 1}));
-  const auto b = make_stepper(problem, make_plan(problem, {"csr", "auto", 1}));
+  const auto a = make_stepper(problem, {"ring", "auto", 1});
+  const auto b = make_stepper(problem, {"csr", "auto", 1});
   a->advance(10);
   const std::uint64_t before = state_hash(a->state());
   const std::vector<Stepper*> all{a.get(), b.get()};

@@ -49,7 +49,7 @@ class MemoryTest : public testing::TestWithParam<Case> {
     request.kernel = c.kernel;
     request.vector = name_of(target);
     request.threads = 2;
-    const auto stepper = make_stepper(problem, make_plan(problem, request));
+    const auto stepper = make_stepper(problem, request);
     stepper->advance(3);
     constexpr double fixed = 2e6;
     const double taken = allocated() - before;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/model/method.hpp"
+#include "kernels/model/problem.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/tests/kernels/method_names.hpp"
 
@@ -56,7 +56,7 @@ State rippling_start() {
 
 State run(const Scene& scene, std::int64_t steps, const State& start) {
   const Problem problem = make_problem(scene, start);
-  auto stepper = make_stepper(problem, make_plan(problem));
+  auto stepper = make_stepper(problem);
   stepper->advance(steps);
   return stepper->state();
 }

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "kernels/model/method.hpp"
 #include "kernels/model/problem.hpp"
 #include "kernels/model/wall_rule.hpp"
-#include "kernels/model/method.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {
@@ -102,7 +102,7 @@ double height(const std::string& method, double step, Contact contact) {
   scene.time.method = method;
   scene.time.step = step;
   const Problem problem = make_problem(scene);
-  const auto stepper = make_stepper(problem, make_plan(problem, {"auto", "auto", 1}));
+  const auto stepper = make_stepper(problem, {"auto", "auto", 1});
   stepper->advance(scene.steps_until(15.0));
   const State state = stepper->state();
   double sum = 0.0;

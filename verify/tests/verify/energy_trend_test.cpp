@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "kernels/plan/plan.hpp"
+#include "verify/tests/paper_scenes.hpp"
 #include "verify/vibrations/spectrum.hpp"
 #include "verify/vibrations/stability_limit.hpp"
-#include "verify/tests/paper_scenes.hpp"
 
 namespace bounce {
 namespace {
@@ -37,7 +37,7 @@ TEST(EnergyTrend, NoMethodHasOne) {
         const Problem problem = in_the_air(example, method);
         PlanRequest request;
         request.kernel = kernel;
-        const auto stepper = make_stepper(problem, make_plan(problem, request));
+        const auto stepper = make_stepper(problem, request);
         const EnergyTrend trend = free_flight_trend(problem, *stepper, flight(method));
         EXPECT_FALSE(trend.any()) << method.name << " " << example << " " << kernel << ": slope "
                                   << trend.slope;
@@ -63,7 +63,7 @@ TEST(EnergyTrend, NoMethodHasOneWithALargeStep) {
     Problem problem = in_the_air(5, method);
     const double omega = fastest_vibration(problem, problem.initial).value().omega;
     problem.step = 0.25 * stable_step(method, omega);
-    const auto stepper = make_stepper(problem, make_plan(problem));
+    const auto stepper = make_stepper(problem);
     const EnergyTrend trend = free_flight_trend(problem, *stepper, flight(method));
     EXPECT_FALSE(trend.any()) << method.name << ": slope " << trend.slope << " +- "
                               << trend.half_width << ", rounding " << trend.rounding;
@@ -96,7 +96,7 @@ class Damped final : public Stepper {
 
 TEST(EnergyTrend, SeesADampingOfOnePartInTenToTheTwelve) {
   const Problem problem = in_the_air(5, *find_method("listing"));
-  Damped broken(make_stepper(problem, make_plan(problem)), 1.0 - 1e-12);
+  Damped broken(make_stepper(problem), 1.0 - 1e-12);
   const EnergyTrend trend = free_flight_trend(problem, broken, 50'000, 16, 16);
   // 360 particles at 4 cm/s have 2880 erg.
   EXPECT_NEAR(trend.slope, -2.0 * 1e-12 * 2880.0, 1e-10);
@@ -105,7 +105,7 @@ TEST(EnergyTrend, SeesADampingOfOnePartInTenToTheTwelve) {
 
 TEST(EnergyTrend, RefusesWallsAndTooFewSteps) {
   const Problem problem = make_problem(paper_scene(2));
-  const auto stepper = make_stepper(problem, make_plan(problem));
+  const auto stepper = make_stepper(problem);
   EXPECT_THROW(free_flight_trend(problem, *stepper, 1000), std::invalid_argument);
   const Problem open = in_the_air(2, *find_method("listing"));
   EXPECT_THROW(free_flight_trend(open, *stepper, 10), std::invalid_argument);

@@ -52,7 +52,7 @@ KernelUnderTest kernel_with(const std::string& name, Corrupt corrupt) {
   return {name, name == "strict", [request, corrupt](const Problem& problem) {
             Problem changed = problem;
             corrupt(changed);
-            return make_stepper(changed, make_plan(changed, request));
+            return make_stepper(changed, request);
           }};
 }
 

@@ -13,12 +13,12 @@
 #include <sstream>
 #include <utility>
 
-#include "verify/watch/booking_stepper.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle_stepper.hpp"
-#include "verify/vibrations/stability_limit.hpp"
 #include "verify/tests/kernels/method_names.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/vibrations/stability_limit.hpp"
+#include "verify/watch/booking_stepper.hpp"
 
 namespace bounce {
 namespace {
@@ -103,7 +103,7 @@ TEST_P(SoundKernel, ClosesItsBooksInItsOwnBits) {
   scene.time.step *= evaluations;
   const Problem problem = make_problem(scene);
   const Plan plan = plan_of(scene, problem, GetParam().kernel);
-  const auto plain = make_stepper(problem, plan, kernels_with_oracle(scene));
+  const auto plain = plan.make_stepper();
   const auto with_books = make_booking_stepper(scene, problem, plan);
   const std::int64_t steps = 8000 / evaluations;  // contact begins at three quarters of it
   const std::int64_t every = 997 / evaluations;
@@ -168,7 +168,7 @@ TEST(Ledger, ClosesWhereAStepFinishedOnACopyMeetsTheWall) {
     const Problem problem = make_problem(scene);
     const Plan plan = plan_of(scene, problem, "ring");
     const auto stepper = make_booking_stepper(scene, problem, plan);
-    const auto plain = make_stepper(problem, plan, kernels_with_oracle(scene));
+    const auto plain = plan.make_stepper();
     const LedgerReport full = booked(problem, *stepper, 700, 1);
     const LedgerReport cheap = watched(problem, *plain, 700, 1);
     EXPECT_TRUE(full.closes()) << print(full);
@@ -298,7 +298,7 @@ Swing swing_of(const Method& method, double angle) {
   for (std::size_t i = 0; i < problem.initial.size(); ++i) {
     problem.initial.vx[i] = std::sin(4.0 * problem.initial.x[i]);
   }
-  const auto stepper = make_stepper(problem, plan_of(scene, problem, "csr"));
+  const auto stepper = plan_of(scene, problem, "csr").make_stepper();
   const Sample start = measure(problem, problem.initial);
   const double first = start.total() + inspect(problem, problem.initial, start).swing;
   Swing swing;
@@ -371,7 +371,7 @@ std::unique_ptr<Stepper> csr(const Problem& problem) {
   PlanRequest request;
   request.kernel = "csr";
   request.threads = 1;
-  return make_stepper(problem, make_plan(problem, request));
+  return make_stepper(problem, request);
 }
 
 // One direction of one bond with a constant of elasticity larger by `relative`.
@@ -393,7 +393,7 @@ Scene falling() { return paper_scene(5); }
 TEST(BrokenKernel, SoundOnesAreNotAccused) {
   for (const char* kernel : {"strict", "csr", "ring"}) {
     const Problem problem = make_problem(falling());
-    const auto stepper = make_stepper(problem, plan_of(falling(), problem, kernel));
+    const auto stepper = plan_of(falling(), problem, kernel).make_stepper();
     const LedgerReport report = watched(problem, *stepper, 20000);
     EXPECT_TRUE(report.closes()) << kernel << "\n" << print(report);
     EXPECT_EQ(report.free_share, 1.0);

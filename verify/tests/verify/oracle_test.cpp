@@ -349,7 +349,20 @@ class OracleEntry : public testing::Test {
   Scene scene_ = paper_scene(2);
   Problem problem_ = make_problem(scene_);
   std::vector<KernelEntry> entries_ = kernels_with_oracle(scene_);
-  Plan plan_;
+
+  // Why the oracle cannot, or "".
+  static std::string refusal(const Scene& scene, const Problem& problem,
+                             const PlanRequest& request) {
+    try {
+      static_cast<void>(make_plan(problem, request, kernels_with_oracle(scene)));
+    } catch (const PlanError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  [[nodiscard]] std::unique_ptr<Stepper> make_oracle() const {
+    return make_stepper(problem_, {"oracle"}, entries_);
+  }
 };
 
 TEST_F(OracleEntry, IsLastAndNeverAutomatic) {
@@ -359,23 +372,19 @@ TEST_F(OracleEntry, IsLastAndNeverAutomatic) {
 }
 
 TEST_F(OracleEntry, RefusesThreadsVectorsAndOtherScenes) {
-  PlanRequest request;
-  EXPECT_EQ(entries_.back().prepare(problem_, request, plan_), "");
-  EXPECT_EQ(plan_.threads, 1);
-  EXPECT_EQ(plan_.lanes, 1);
-  request.threads = 1;
-  EXPECT_EQ(entries_.back().prepare(problem_, request, plan_), "");
-  request.threads = 2;
-  EXPECT_NE(entries_.back().prepare(problem_, request, plan_), "");
-  request = {};
-  request.vector = "avx2";
-  EXPECT_NE(entries_.back().prepare(problem_, request, plan_), "");
+  const Plan plan = make_plan(problem_, {"oracle"}, entries_);
+  EXPECT_EQ(plan.threads, 1);
+  EXPECT_EQ(plan.lanes, 1);
+  EXPECT_EQ(refusal(scene_, problem_, {"oracle", "auto", 1}), "");
+  EXPECT_NE(refusal(scene_, problem_, {"oracle", "auto", 2}).find("one thread"), std::string::npos);
+  EXPECT_NE(refusal(scene_, problem_, {"oracle", "avx2", 0}).find("no vectors"), std::string::npos);
   scene_.time.method = "leapfrog";
-  EXPECT_NE(kernels_with_oracle(scene_).back().prepare(make_problem(scene_), {}, plan_), "");
+  EXPECT_NE(refusal(scene_, make_problem(scene_), {"oracle"}).find("cannot run this scene"),
+            std::string::npos);
 }
 
 TEST_F(OracleEntry, StepsAsTheOracleAndRestores) {
-  const auto stepper = entries_.back().make(problem_, plan_);
+  const auto stepper = make_oracle();
   stepper->advance(10);
   const Snapshot half = stepper->save();
   EXPECT_EQ(half.step, 10);
@@ -385,7 +394,7 @@ TEST_F(OracleEntry, StepsAsTheOracleAndRestores) {
   Oracle oracle(scene_, problem_.initial);
   oracle.step(20);
   expect_same_state(stepper->state(), oracle.state());
-  const auto other = entries_.back().make(problem_, plan_);
+  const auto other = make_oracle();
   other->restore(half);
   other->advance(10);
   EXPECT_EQ(other->step(), 20);

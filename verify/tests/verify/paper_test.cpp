@@ -55,7 +55,7 @@ ExampleRun run_example(int number, const std::string& change = {}) {
   if (!change.empty()) file.set(change);
   const Scene scene = file.scene();
   ExampleRun run{.problem = make_problem(scene), .moments = {}, .bounce = {}};
-  const auto stepper = make_stepper(run.problem, make_plan(run.problem));
+  const auto stepper = make_stepper(run.problem);
   const std::int64_t last = scene.steps_until(scene.time.end);
   const std::int64_t every = scene.steps_until(sample_every);
   Watch watch(run.problem, run.problem.initial);

@@ -223,7 +223,7 @@ class EdgeTest : public testing::TestWithParam<std::string> {
     std::uniform_real_distribution<double> move(-1e-8, 1e-8);
     for (double& x : problem.initial.x) x += move(random);
     for (double& y : problem.initial.y) y += move(random);
-    const auto stepper = make_stepper(problem, make_plan(problem));
+    const auto stepper = make_stepper(problem);
     double largest = 0.0;
     for (int n = 0; n < steps; ++n) {
       stepper->advance(1);

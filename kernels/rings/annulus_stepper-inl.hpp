@@ -1,4 +1,4 @@
-// rings: as many concentric rings as there are, told at run time: for balls of more rings than
+// annulus: as many concentric rings as there are, a number known at run time: for balls of more rings than
 // `ring` is compiled for.
 //
 // Why it is built so (ring_columns-inl.hpp says why lanes are sectors and what that looks like)
@@ -27,11 +27,11 @@
 // Not taken: several stages a visit, as tiles of `ring` do. A column of 100 rings is 13 kB with 4
 // lanes: a front of 16 stages would not stay in L1, and an annulus of 72 000 particles (2.3 MB)
 // stays in the last cache anyway. A ball beyond that cache is swept through memory once a stage.
-#if defined(BOUNCE_RINGS_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef BOUNCE_RINGS_STEPPER_INL_HPP
-#undef BOUNCE_RINGS_STEPPER_INL_HPP
+#if defined(BOUNCE_ANNULUS_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BOUNCE_ANNULUS_STEPPER_INL_HPP
+#undef BOUNCE_ANNULUS_STEPPER_INL_HPP
 #else
-#define BOUNCE_RINGS_STEPPER_INL_HPP
+#define BOUNCE_ANNULUS_STEPPER_INL_HPP
 #endif
 
 #include <hwy/highway.h>
@@ -43,11 +43,11 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/stepping/particle_store.hpp"
 #include "kernels/rings/ring_columns-inl.hpp"
 #include "kernels/rings/ring_shape.hpp"
-#include "kernels/stepping/spin.hpp"
+#include "kernels/stepping/particle_store.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
+#include "kernels/stepping/threads.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -56,14 +56,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// D: Highway's tag with the lanes to use. Law: the form the scene needs. Two rings at least.
 template <class D, class Law>
-class RingsStepper final : public StagedStepper {
+class AnnulusStepper final : public StagedStepper {
   using V = hn::Vec<D>;
   static constexpr D d{};
   static constexpr size_t L = hn::MaxLanes(D());
   static constexpr size_t step = 4 * L;  // doubles of a ring of a column: x, y, vx, vy
 
  public:
-  RingsStepper(const Problem& start, RingShape shape, int threads)
+  AnnulusStepper(const Problem& start, RingShape shape, int threads)
       : StagedStepper(start),
         shape_(std::move(shape)),
         law_(start.law),
@@ -74,7 +74,7 @@ class RingsStepper final : public StagedStepper {
     for (size_t t = 0; t < tiles; ++t) {
       tiles_.emplace_back(columns_ * t / tiles, columns_ * (t + 1) / tiles, rings_);
     }
-    RingsStepper::write(start.initial);
+    AnnulusStepper::write(start.initial);
   }
 
  protected:
