@@ -2,8 +2,8 @@
 """Checks bounce advise: what it forecasts for the height of the centre, against what then comes out.
 
 For each scene and asked error: `bounce run SCENE --error X`, its height at the end against the reference in
-RESULTS/accuracy/SCENE, its run time, the median of 7 of the same, against the forecast. Writes OUT/advice.md (for
-README). Exit code 1 if an error came out larger than three times the asked one.
+RESULTS/accuracy/SCENE, its run time, the median of 7 of the same, against the forecast. Writes OUT/advice.md. Exit
+code 1 if an error came out larger than three times the asked one.
 """
 
 import argparse
@@ -16,19 +16,23 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from studies import study
+from studies.study import ROOT
+
 RUNS = 7
 
-FORECAST = re.compile(r"method ([\w-]+), contact (\w+(?:, precision \w+)?), time step (\S+) s\n"
+FORECAST = re.compile(r"method ([\w-]+), contact (\w+), time step (\S+) s\n"
                       r"forecast: error of height (\S+) cm .*known to (\S+)\), run (\S+) s")
 
 
 def read_arguments():
-    root = Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add = parser.add_argument
-    add("--bounce", type=Path, default=root / "build/release/bounce", metavar="PROGRAM")
-    add("--results", type=Path, default=root / "results", metavar="DIR", help="holds accuracy/SCENE [results]")
-    add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
+    add("--bounce", type=Path, default=ROOT / "build/release/bounce", metavar="PROGRAM")
+    add("--results", type=Path, default=ROOT / "results", metavar="DIR", help="holds accuracy/SCENE [results]")
+    add("--out", type=Path, default=ROOT / "results", metavar="DIR", help="[results]")
     add("--errors", default="1e-2,1e-3,1e-4,1e-6", help="asked, cm [1e-2,1e-3,1e-4,1e-6]")
     add("scenes", nargs="*", metavar="SCENE", default=[f"example-{n}" for n in range(1, 8)])
     return parser.parse_args()
@@ -88,6 +92,14 @@ def row_of(arguments, scene, asked, folder):
             f"{took:.2f}", verdict(error, float(asked), bar, took)]
 
 
+def origin_text(arguments, folder):
+    """Of the program, as a run of one step tells it."""
+    subprocess.run([arguments.bounce, "run", arguments.scenes[0], "--steps", "1", "--out", folder / "origin", "--quiet"],
+                   capture_output=True, check=True)
+    origin = json.loads((folder / "origin" / "run.json").read_text())["origin"]
+    return f"at commit {origin['commit']}, {study.now()}, on {origin['cpu']}, {origin['compiler']}, {origin['flags']}"
+
+
 def main():
     arguments = read_arguments()
     head = ["scene", "asked, cm", "advised: method, contact, Δt", "forecast", "came out", "known to", "run, s, forecast",
@@ -95,11 +107,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         rows = [row_of(arguments, scene, asked, Path(folder))
                 for scene in arguments.scenes for asked in arguments.errors.split(",")]
-    version = subprocess.run([arguments.bounce, "--version"], capture_output=True, text=True, check=True).stdout
-    lines = "".join("| " + " | ".join(line) + " |\n" for line in [head, ["---"] * len(head), *rows])
-    (arguments.out / "advice.md").write_text(
-        f"# Advice\n\nErrors of the height of the centre at the end, cm.\n\n{lines}\n"
-        f"Made by `scripts/advice.py`, {version.splitlines()[0]}.\n", encoding="utf-8")
+        made = origin_text(arguments, Path(folder))
+    study.write_whole(
+        arguments.out / "advice.md",
+        f"# Advice\n\nErrors of the height of the centre at the end, cm.\n\n{study.table(head, rows)}\n"
+        f"Made by `scripts/studies/advice.py` {made}.\n")
+    study.follow(arguments.out)
     print(f"advice.py: {arguments.out}/advice.md")
     return 1 if any(row[-1] == "MISSED" for row in rows) else 0
 

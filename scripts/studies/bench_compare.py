@@ -40,7 +40,11 @@ from collections import namedtuple
 from fractions import Fraction
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from studies import benchmarks, study
+from studies.study import ROOT, InputError
+
 FALSE_ALARM = Fraction(2, 100)  # a row's, at most
 LEAST_OF_PAIRS = 0.02
 LEAST_OF_FILES = 0.05
@@ -49,10 +53,6 @@ MEASURE = "oracle -O3 -march=native"
 
 # a, b: median figures; ratio: of B's speed to A's; evidence: what the verdict rests on.
 Row = namedtuple("Row", "name a b ratio evidence verdict judged")
-
-
-class InputError(Exception):
-    """What cannot be compared, and what can."""
 
 
 def coin_chance(n, k):
@@ -125,12 +125,8 @@ def judge_files(name, a, b):
 
 def repetitions(data, key):
     """A row's name to its figures, in the order in which the rows were registered; NaN stands for an error."""
-    found = {}
-    for run in sorted(data["benchmarks"], key=lambda run: run["family_index"]):
-        if run["run_type"] == "iteration":
-            figure = math.nan if run.get("error_occurred") else run.get(key, math.nan)
-            found.setdefault(short(run["run_name"]), []).append(figure)
-    return found
+    return {short(name): [math.nan if run.get("error_occurred") else run.get(key, math.nan) for run in same]
+            for name, same in benchmarks.rows(data).items()}
 
 
 def short(run_name):
@@ -138,11 +134,8 @@ def short(run_name):
 
 
 def read_file(path):
-    try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-        return data["context"]["commit"], repetitions(data, "x_oracle_O3")
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{path}: not a result of scripts/bench.sh ({type(error).__name__}: {error})") from error
+    data = benchmarks.read(path)
+    return data["context"]["commit"], repetitions(data, "x_oracle_O3")
 
 
 def compare_files(paths, wanted):
@@ -167,7 +160,7 @@ def judge_common(a, b, wanted, judge):
     return rows
 
 
-def output(*command, cwd=TOP):
+def output(*command, cwd=ROOT):
     """What a command prints. InputError if it fails."""
     done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -177,11 +170,11 @@ def output(*command, cwd=TOP):
 
 def build(commit):
     """The benchmark program of this commit, from a clone of its own."""
-    folder = TOP / "build" / "compare" / commit[:12]
+    folder = ROOT / "build" / "compare" / commit[:12]
     if not folder.exists():
         folder.parent.mkdir(parents=True, exist_ok=True)
         partial = folder.with_name(f".{folder.name}-{os.getpid()}")
-        output("git", "clone", "--quiet", "--shared", "--no-checkout", str(TOP), str(partial))
+        output("git", "clone", "--quiet", "--shared", "--no-checkout", str(ROOT), str(partial))
         output("git", "checkout", "--quiet", "--detach", commit, cwd=partial)
         partial.rename(folder)
     if subprocess.run([folder / "scripts" / "build.sh", "release", "bounce_bench"], stdout=sys.stderr,
@@ -193,10 +186,8 @@ def build(commit):
 def time_row(program, run_name, commit):
     """Nanoseconds a step, by a process of its own; NaN if the row is an error."""
     escaped = re.sub(r"([][\\.^$*+?(){}|])", r"\\\1", run_name)
-    # As scripts/bench.sh has it.
-    env = os.environ | {"OMP_PROC_BIND": "close", "OMP_PLACES": "cores", "OMP_WAIT_POLICY": "active"}
-    done = subprocess.run([program, f"--benchmark_filter=^{escaped}$", "--benchmark_format=json"], env=env,
-                          capture_output=True, text=True, check=False)
+    done = subprocess.run([program, f"--benchmark_filter=^{escaped}$", "--benchmark_format=json"],
+                          env=os.environ | benchmarks.PINNED, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise InputError(f"{program}: exit code {done.returncode} on {run_name}: {done.stderr.strip()}")
     data = json.loads(done.stdout)
@@ -216,10 +207,8 @@ def compare_commits(commits, rounds, wanted):
             for side in (0, 1) if number % 2 == 0 else (1, 0):
                 times[side][short(name)].append(time_row(programs[side], name, commits[side]))
         print(f"round {number + 1} of {rounds}", file=sys.stderr)
-    raw = TOP / "build" / "compare" / f"{commits[0][:12]}-{commits[1][:12]}.json"
-    partial = raw.with_suffix(".tmp")
-    partial.write_text(json.dumps({"commits": commits, "ns_per_step": times}, indent=1) + "\n")
-    os.replace(partial, raw)
+    raw = ROOT / "build" / "compare" / f"{commits[0][:12]}-{commits[1][:12]}.json"
+    study.write_whole(raw, json.dumps({"commits": commits, "ns_per_step": times}, indent=1) + "\n")
     print(f"raw times: {raw}", file=sys.stderr)
     return [f"{commit[:12]}, ns/step" for commit in commits], judge_common(*times, wanted, judge_pairs)
 
@@ -227,7 +216,7 @@ def compare_commits(commits, rounds, wanted):
 def find_commit(name):
     """Its full hash, or None."""
     done = subprocess.run(["git", "rev-parse", "--quiet", "--verify", "--end-of-options", f"{name}^{{commit}}"],
-                          cwd=TOP, capture_output=True, text=True, check=False)
+                          cwd=ROOT, capture_output=True, text=True, check=False)
     return done.stdout.strip() if done.returncode == 0 else None
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """What the monitor, with its cheap ledger, costs of a run: against runs that sample only start and end.
 
-    scripts/monitor_cost.py [--rounds N] [--scene NAME] [--steps N] [--allow-dirty]
+    scripts/studies/monitor_cost.py [--rounds N] [--scene NAME] [--steps N] [--allow-dirty]
 
 The cost is smaller than what the clock swings by from run to run, so beside runs at the default cadence
 there are some with ten times as many samples, whose cost is divided by ten. Prints the result; from a
-clean tree also writes results/monitor_cost.md, for README. Some 40 s on an idle machine.
+clean tree also writes results/monitor_cost.md. Some 40 s on an idle machine.
 """
 
 import argparse
@@ -14,14 +14,15 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from datetime import datetime, timezone
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from studies import study
+from studies.study import ROOT
+
 BOUNCE = ROOT / "build/release/bounce"
-ALLOWED = 0.02  # of a run: issue 4, point 1
-
-
+ALLOWED = 0.02  # of a run
 CADENCES = {"bare": "1e6", "default": "0.01", "dense": "0.001"}  # output.monitor_every, s
 DENSER = 10
 
@@ -79,17 +80,18 @@ def main():
             f"{direct[0]:.1%} (quartiles {direct[1]:.1%} and {direct[2]:.1%}, the swing of the clock). Medians of "
             f"{len(rounds)} rounds of {arguments.steps} steps of {arguments.scene}, kernel {last['plan']['kernel']}, "
             f"{last['plan']['vector']}, one thread, over runs that sample only start and end ({bare:.2f} s).\n\n"
-            f"Made by `scripts/monitor_cost.py` at commit {origin['commit']}, "
-            f"{datetime.now(timezone.utc):%Y-%m-%dT%H:%M:%SZ}, on {origin['cpu']}, {origin['compiler']}, "
+            f"Made by `scripts/studies/monitor_cost.py` at commit {origin['commit']}, "
+            f"{study.now()}, on {origin['cpu']}, {origin['compiler']}, "
             f"{origin['flags']}.\n")
     print(text, flush=True)
     if not arguments.allow_dirty:
-        changes = subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], check=True, capture_output=True)
-        if changes.stdout or origin["commit"].endswith("-dirty"):
+        if study.git("status", "--porcelain") != "" or origin["commit"].endswith("-dirty"):
             sys.exit("monitor_cost.py: not written: the tree has or had changes (--allow-dirty only prints)")
-        (ROOT / "results/monitor_cost.md").write_text("# What the monitor costs\n\n" + text)
+        study.write_whole(ROOT / "results/monitor_cost.md", "# What the monitor costs\n\n" + text)
+        study.follow(ROOT / "results")
     if not median < ALLOWED:
         sys.exit(f"monitor_cost.py: that is not under {ALLOWED:.0%}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,16 +1,22 @@
 #!/usr/bin/python3
-"""Keeps the reference solutions that scripts/reference.sh has put into runs/, and makes their table.
+"""Keeps the reference solutions that scripts/studies/reference.sh has put into runs/, and makes their table.
 
-Writes OUT/reference/SCENE (observables.json, before-impact.csv, final.csv, scene.toml) and OUT/reference.md (for
-README), of all scenes that are there. From clean commits only, unless --allow-dirty.
+  scripts/studies/reference.py SCENE...    takes these scenes from RUNS/reference-SCENE
+  scripts/studies/reference.py             the table once more, from OUT/reference alone
+
+Writes OUT/reference/SCENE (observables.json, before-impact.csv, final.csv, scene.toml) and OUT/reference.md, of all
+scenes that are there. From clean commits only, unless --allow-dirty.
 """
 
 import json
 import shutil
 import sys
+from pathlib import Path
 
-from pictures import studies
-from pictures.run import RunError
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from studies import study
+from studies.study import InputError
 
 FILES = ("observables.json", "before-impact.csv", "final.csv", "scene.toml")
 SHOWN = ("end_height", "end_speed", "rebound_height", "energy_lost", "greatest_flattening")
@@ -23,7 +29,7 @@ def read(folder):
         for name in ("observables", "growth", "origin", "end_position_error"):
             found[name]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise RunError(f"{path}: cannot be read: {error}") from error
+        raise InputError(f"{path}: cannot be read: {error}") from error
     return found
 
 
@@ -43,15 +49,14 @@ def row_of(scene, found):
 def markdown(all_found):
     head = ["scene", "height, cm", "speed, cm/s", "rebound, cm", "energy lost, erg", "flattening",
             "places at the end, cm", "growth", "at commit"]
-    lines = [head, ["---"] * len(head), *(row_of(scene, found) for scene, found in all_found.items())]
     return "\n".join([
         "# Reference solutions\n",
         "The centre's height and speed at the end, greatest height after the lowest, energy lost, greatest flattening, "
         "each ± what the two solutions differ by; the largest difference of a particle's place at the end; by how much "
         "a start disturbed by 1e-10 of the shortest bond is farther off at the end. Where that is large, two courses "
         "may agree by chance, and the error bars of `bounce accuracy`, of three courses, are the better ones.\n",
-        "".join("| " + " | ".join(line) + " |\n" for line in lines),
-        "Made by `scripts/reference.sh`; all observables, the ball before the impact and at the end, origin: "
+        study.table(head, [row_of(scene, found) for scene, found in all_found.items()]),
+        "Made by `scripts/studies/reference.sh`; all observables, the ball before the impact and at the end, origin: "
         "`results/reference/`.",
         "",
     ])
@@ -64,23 +69,21 @@ def make(arguments, folder):
         source, place = arguments.runs / f"reference-{scene}", folder / "reference" / scene
         found = read(source)
         if not arguments.allow_dirty:
-            studies.check_clean(source, found["origin"]["commit"])
+            study.check_clean(source, found["origin"]["commit"])
         place.mkdir(parents=True, exist_ok=True)
         for name in FILES:
             shutil.copy(source / name, place / name)
+    if not (folder / "reference").is_dir():
+        raise InputError(f"{arguments.out / 'reference'}: no scene there, and none is named")
     kept = {place.name: read(place) for place in sorted((folder / "reference").iterdir())}
-    (folder / "reference.md").write_text(markdown(kept), encoding="utf-8")
+    study.write_whole(folder / "reference.md", markdown(kept))
 
 
 def main():
-    arguments = studies.read_arguments(__doc__.splitlines()[0], "reference")
-    studies.publish(arguments.out, ("reference", "reference.md"), lambda folder: make(arguments, folder))
+    arguments = study.scene_parser(__doc__.splitlines()[0], "reference").parse_args()
+    study.publish(arguments.out, lambda folder: make(arguments, folder))
     print(f"reference.py: {arguments.out}/reference.md and {arguments.out}/reference")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except RunError as error:
-        print(f"reference.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    study.run(main)

@@ -1,47 +1,25 @@
 #!/usr/bin/python3
-"""Draws the edge of stability and makes its tables, from what scripts/stability.sh has put into runs/.
+"""Draws the edge of stability and makes its tables, from what scripts/studies/stability.sh has put into runs/.
 
-Writes OUT/stability.md (for README) and OUT/stability/: the sweeps' edge.csv and table.txt, the
-pictures as PNG and SVG, origin.json. From runs of one clean commit only, unless --allow-dirty.
+Writes OUT/stability.md and OUT/stability/: the sweeps' edge.csv, the pictures, origin.json. From runs of one clean
+commit only, unless --allow-dirty.
 """
 
-import argparse
 import json
 import math
-import os
-import shlex
 import shutil
 import sys
-import tempfile
-from datetime import datetime, timezone
 from pathlib import Path
 
-try:
-    from figures import check_clean, script_commit
-    from pictures import edge
-    from pictures.drawing import plt
-    from pictures.run import RunError, read_run
-except ImportError as missing:
-    sys.exit(f"stability.py: {missing}; install it with: apt-get install python3-matplotlib")
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from pictures import drawing, edge
+from pictures.run import read_run
+from studies import study
+from studies.study import InputError, table
 
 SWEEPS = ("example-1", "example-2")
 THROWS = ("0.767", "3", "10")  # cm/s
-
-
-def read_arguments():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    add = parser.add_argument
-    add("--runs", type=Path, default=root / "runs", metavar="DIR",
-        help="holds example-N, sweep-example-N and throw-SPEED [runs]")
-    add("--out", type=Path, default=root / "results", metavar="DIR", help="[results]")
-    add("--allow-dirty", action="store_true", help="take runs of changed trees, too")
-    return parser.parse_args()
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
 def examples_table(examples):
@@ -171,7 +149,7 @@ def markdown(examples, sweeps, origins):
         f"**Δt = {listing['dt']:g} s really fails above E = {number(listing)}** ({listing['method']}, free "
         "flight). The examples ran far below their edges:\n",
         examples_table(examples),
-        "| | |\n| --- | --- |\n| ![](results/stability/edge.png) | ![](results/stability/margin.png) |\n",
+        "| | |\n| --- | --- |\n| ![](stability/edge.png) | ![](stability/margin.png) |\n",
         f"Free flight over E, predicted and measured. Strict limit: the first vibration grows, however slowly. By "
         f"the criterion: the energy grows by more than {listing['growth']:g} within {listing['periods']:g} periods "
         "of the fastest vibration.\n",
@@ -184,16 +162,20 @@ def markdown(examples, sweeps, origins):
         disturbed_table(first),
         criterion_text(sweeps),
         time_text(sweeps, origins),
-        f"Made by `scripts/stability.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}; all "
+        f"Made by `scripts/studies/stability.sh` at commit {some['commit']}, {some['date']}, on {some['cpu']}; all "
         "rows: `results/stability/*/edge.csv`.",
         "",
     ])
 
 
-def save(figure, folder, name):
-    for kind in ("png", "svg"):
-        figure.savefig(folder / f"{name}.{kind}", metadata={"Date": None} if kind == "svg" else None)
-    plt.close(figure)
+def check_origins(runs, examples, throws, origins):
+    """InputError unless all was made from one clean commit."""
+    commits = {run.path: run.record["origin"]["commit"] for run in (examples | throws).values()}
+    commits |= {runs / f"sweep-{scene}": origin["commit"] for scene, origin in origins.items()}
+    for made_by, commit in commits.items():
+        study.check_clean(made_by, commit)
+    study.check_clean("scripts/", study.scripts_commit())
+    study.one_commit(commits.values())
 
 
 def make(arguments, folder):
@@ -203,47 +185,32 @@ def make(arguments, folder):
     throws = {f"impact at {speed} cm/s": read_run(runs / f"throw-{speed}") for speed in THROWS}
     sweeps = {scene: edge.read_sweep(runs / f"sweep-{scene}") for scene in SWEEPS}
     origins = {scene: json.loads((runs / f"sweep-{scene}" / "origin.json").read_text()) for scene in SWEEPS}
-    commit = script_commit()
     if not arguments.allow_dirty:
-        check_clean(examples | throws, commit)
-        for scene, origin in origins.items():
-            if origin["commit"] != examples[1].record["origin"]["commit"]:
-                raise RunError(f"{runs / ('sweep-' + scene)}: commit {origin['commit']} is not that of the runs")
-    (folder / "stability").mkdir()
+        check_origins(runs, examples, throws, origins)
+    place = folder / "stability"
     for scene in SWEEPS:
-        (folder / "stability" / scene).mkdir()
-        for name in ("edge.csv", "table.txt", "origin.json", "scene.toml"):
-            shutil.copy(runs / f"sweep-{scene}" / name, folder / "stability" / scene / name)
+        (place / scene).mkdir(parents=True)
+        for name in ("edge.csv", "origin.json", "scene.toml"):
+            shutil.copy(runs / f"sweep-{scene}" / name, place / scene / name)
     places = {n: (run.scene["law"]["elasticity"], run.scene["time"]["step"]) for n, run in examples.items()}
-    save(edge.plane(sweeps["example-2"], places), folder / "stability", "edge")
-    save(edge.margin(throws), folder / "stability", "margin")
-    record = {"command": shlex.join(["scripts/stability.sh"]), "drawn_by_commit": commit,
-              "date": datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"), "sweeps": origins,
+    drawing.save(edge.plane(sweeps["example-2"], places), place / "edge.png")
+    drawing.save(edge.margin(throws), place / "margin.png")
+    record = {"command": "scripts/studies/stability.sh", "commit": origins[SWEEPS[0]]["commit"],
+              "drawn_by_commit": study.scripts_commit(), "date": study.now(), "sweeps": origins,
               "runs": {run.path.name: {"command": run.record["command"],
                                        "state_hash": run.record["state_hash"],
                                        "commit": run.record["origin"]["commit"]}
                        for run in (examples | throws).values()}}
-    (folder / "stability" / "origin.json").write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n")
-    (folder / "stability.md").write_text(markdown(examples, sweeps, origins))
+    study.write_whole(place / "origin.json", json.dumps(record, indent=2, ensure_ascii=False) + "\n")
+    study.write_whole(folder / "stability.md", markdown(examples, sweeps, origins))
 
 
 def main():
-    arguments = read_arguments()
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
-    try:
-        make(arguments, partial)
-        shutil.rmtree(arguments.out / "stability", ignore_errors=True)
-        for name in ("stability", "stability.md"):
-            os.replace(partial / name, arguments.out / name)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
+    parser = study.parser_of(__doc__.splitlines()[0], "example-N, sweep-example-N and throw-SPEED")
+    arguments = parser.parse_args()
+    study.publish(arguments.out, lambda folder: make(arguments, folder))
     print(f"stability.py: {arguments.out}/stability.md and {arguments.out}/stability")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except RunError as error:
-        print(f"stability.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    study.run(main)

@@ -8,9 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from scripts_folder import SCRIPTS
+from scripts_folder import SCRIPTS, STUDIES, has_numpy
 
-import bench_compare
+from studies import bench_compare
 
 MEASURE = "oracle -O3 -march=native/threads:1"
 RING = "ring avx2/threads:1"
@@ -100,8 +100,9 @@ class CompareFiles(unittest.TestCase):
             self.assertIn(complaint, complaints)
 
 
+@unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
 class LargeBalls(unittest.TestCase):
-    """scripts/large_balls.py on made-up measurements."""
+    """large_balls.py on made-up measurements."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -114,7 +115,7 @@ class LargeBalls(unittest.TestCase):
             for threads in (1, 2):
                 for repetition in range(3):
                     run = {"run_name": f"particles:{particles}/threads:{threads}/iterations:9/manual_time",
-                           "run_type": "iteration", "ns_per_particle_step": 2.0 + repetition,
+                           "run_type": "iteration", "family_index": 0, "ns_per_particle_step": 2.0 + repetition,
                            "x_papers_ball": 1.25, "sweep_ns_per_particle_step": 9.0, "sweep_x_papers_ball": 4.5,
                            "memory_bytes_per_s": 8e9, "memory_ns_per_particle_step": 8.0, "build_s": 1.5}
                     change(run)
@@ -126,7 +127,7 @@ class LargeBalls(unittest.TestCase):
         return path
 
     def run_script(self, path):
-        done = subprocess.run([SCRIPTS / "large_balls.py", path, self.folder], capture_output=True, text=True,
+        done = subprocess.run([STUDIES / "large_balls.py", path, self.folder], capture_output=True, text=True,
                               check=False)
         return done.returncode, done.stderr
 
@@ -137,7 +138,6 @@ class LargeBalls(unittest.TestCase):
         self.assertIn("medians of 3 repetitions of 9 turns", text)
         self.assertIn("c0ffee", text)
         self.assertGreater((self.folder / "large-balls.png").stat().st_size, 10000)
-        self.assertIn("<svg", (self.folder / "large-balls.svg").read_text())
 
     def test_what_is_no_figure(self):
         def nan(run):
@@ -165,22 +165,65 @@ class LargeBalls(unittest.TestCase):
         self.assertIn("torn.json: not a result", complaints)
 
 
-class Targets(unittest.TestCase):
-    def rows(self, figures):
-        with tempfile.TemporaryDirectory() as folder:
-            results(folder, "throughput.json", figures)
-            done = subprocess.run([SCRIPTS / "targets_table.py", folder], capture_output=True, text=True, check=True)
-        return {line.split(" | ")[0].lstrip("| "): [cell.strip(" |") for cell in line.split(" | ")[2:]]
-                for line in done.stdout.splitlines() if line.startswith("|")}
+class Slim(unittest.TestCase):
+    """What slim.py leaves of a benchmark's JSON."""
 
-    def test_met_missed_and_not_measured(self):
-        rows = self.rows({"ring avx512/threads:1": [20.0, 19.0, 21.0], "ring avx2/threads:1": [8.9] * 3,
-                          "ring avx512/threads:4": [9.0] * 3, "auto auto, example-1/threads:0": [math.nan] * 3})
-        self.assertEqual(rows["ring avx512, one core: × oracle -O3"], ["20.00", "met"])
-        self.assertEqual(rows["ring avx2, one core: × oracle -O3"], ["8.90", "**not met**"])
-        self.assertEqual(rows["ring avx512, four threads on two cores: × one thread"], ["0.45", "**not met**"])
-        for missing in ("Example 1 as auto runs it: × oracle -O3", "ring avx512, one core: × oracle -Ofast"):
-            self.assertEqual(rows[missing], ["not measured", ""])
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name) / "throughput.json"
+
+    def write(self, date):
+        names = ("ring avx2/threads:1", "64 balls ensemble avx2/threads:1", "ring avx2, single/threads:1")
+        runs = [{"name": name, "run_name": name + "/iterations:7", "run_type": kind, "family_index": index,
+                 "repetitions": 7, "cpu_time": 1.0, "label": "example-2", "x_oracle_O3": 12.3456789 + repetition,
+                 "ns_per_step": math.nan}
+                for index, name in enumerate(names) for kind in ("iteration", "aggregate") for repetition in range(7)]
+        context = {"commit": "c0ffee", "date": date, "cpu": "a cpu", "num_cpus": 2, "compiler": "c", "flags": "-O3",
+                   "caches": [1, 2, 3]}
+        self.path.write_text(json.dumps({"context": context, "benchmarks": runs}, indent=2))
+
+    def run_script(self, name, *words):
+        return subprocess.run([STUDIES / name, *words], capture_output=True, text=True, check=False)
+
+    def test_what_is_gone_goes_and_is_told(self):
+        self.write("2026-11-27T16:04:22+00:00")
+        self.assertEqual(self.run_script("slim.py", self.path).returncode, 0)
+        data = json.loads(self.path.read_text())
+        self.assertEqual({run["run_name"] for run in data["benchmarks"]}, {"ring avx2/threads:1/iterations:7"})
+        self.assertEqual(set(data["benchmarks"][0]), {"run_name", "run_type", "family_index", "repetitions", "label",
+                                                      "x_oracle_O3", "ns_per_step"})
+        self.assertEqual(data["benchmarks"][0]["x_oracle_O3"], 12.3457)
+        self.assertNotIn("caches", data["context"])
+        once = self.path.read_text()
+        self.assertEqual(self.run_script("slim.py", self.path).returncode, 0)
+        self.assertEqual(self.path.read_text(), once)
+        text = self.run_script("bench_table.py", self.path).stdout
+        self.assertIn("of what the program no longer has: an ensemble of balls, one a lane; single and", text)
+        self.assertIn("| ring avx2 | example-2 | 1 | - |", text)
+
+    def test_of_today_nothing_is_gone(self):
+        self.write("2026-11-29T00:00:00+00:00")
+        self.assertEqual(self.run_script("slim.py", self.path).returncode, 0)
+        self.assertEqual(len(json.loads(self.path.read_text())["benchmarks"]), 21)
+        self.assertNotIn("no longer", self.run_script("bench_table.py", self.path).stdout)
+
+    def test_the_comparison_reads_both_forms(self):
+        self.write("2026-11-29T00:00:00+00:00")
+        whole = self.path.with_name("whole.json")
+        whole.write_text(self.path.read_text())
+        self.run_script("slim.py", self.path)
+        done = subprocess.run([SCRIPTS / "bench.sh", "--compare", whole, self.path], capture_output=True, text=True,
+                              check=False)
+        self.assertEqual((done.returncode, done.stdout.count("not told apart")), (0, 3), done.stderr)
+
+    def test_bad_input(self):
+        self.path.write_text("{}")
+        for path, complaint in ((self.path, "not a result"), (self.path.with_name("none.json"), "not a result"),
+                                (self.path.with_name("some.txt"), "allowed are .json, .png and .md")):
+            done = self.run_script("slim.py", path)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(complaint, done.stderr)
 
 
 class Rule(unittest.TestCase):

@@ -20,6 +20,17 @@ class Peers(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("apt-get install lammps", done.stderr)
 
+    def test_the_page_is_made_again(self):
+        results = SCRIPTS.parent / "results"
+        with tempfile.TemporaryDirectory() as folder:
+            words = [SCRIPTS / "peers" / "compare.py", "--page", "--out", folder]
+            done = subprocess.run(words, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("peers.json: cannot be read", done.stderr)
+            (Path(folder) / "peers.json").write_text((results / "peers.json").read_text())
+            self.assertEqual(subprocess.run(words, capture_output=True, check=False).returncode, 0)
+            self.assertEqual((Path(folder) / "peers.md").read_text(), (results / "peers.md").read_text())
+
     def test_balls_are_those_of_bounce(self):
         from peers.flying_ball import read_ball
 

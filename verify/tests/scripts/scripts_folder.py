@@ -3,7 +3,8 @@ import contextlib
 import sys
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parent.parent.parent / "scripts"
+SCRIPTS = Path(__file__).resolve().parent.parent.parent.parent / "scripts"
+STUDIES = SCRIPTS / "studies"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
