@@ -52,7 +52,7 @@ def lines_of(study, only=None):
 def frontiers_of(study, name, lines):
     """Line to its points. Where a method is off by far more than the paper's program, nobody wants it."""
     papers = study.papers()
-    worst = 300.0 * papers[f"error_{name}"] if papers else math.inf
+    worst = 300.0 * max(papers[f"error_{name}"], study.bar[f"error_{name}"]) if papers else math.inf
     found = {label: [(seconds, error) for seconds, error in study.frontier(methods, name) if 0.0 < error <= worst]
              for label, (methods, _) in lines.items()}
     return {label: points for label, points in found.items() if points}
@@ -155,7 +155,7 @@ def cost_of(box, own, others, names, frame_box):
     cost = 20.0 * (np.count_nonzero(to_own < 0.35 * height) + np.count_nonzero(to_others < 0.2 * height))
     cost += 3.0 * np.count_nonzero(to_others < 0.7 * height)
     if len(others) and to_others.min() < to_own.min():  # it would be read as that line's
-        cost += 60.0
+        cost += 300.0
     cost += 10.0 * sum(max(0.0, min(right, name[2]) - max(left, name[0])) *
                        max(0.0, min(top, name[3]) - max(bottom, name[1])) for name in names)
     cost += 50.0 * (max(0.0, frame_box.x0 - left) + max(0.0, right - frame_box.x1) +

@@ -72,12 +72,11 @@ def markdown(found):
 
 
 def draw(found, folder):
-    title, below = HEADLINE[1:]
     for scene, each in found.items():
         title = f"{scene}: error against run time (star: the paper's program; grey: the reference knows no better)"
         drawing.save(accuracy.figure_of(each, title), folder / f"{scene}.png")
         if scene == HEADLINE[0] and each.papers():
-            drawing.save(accuracy.headline(each, title, below), folder / "headline.png", dpi=200)
+            drawing.save(accuracy.headline(each, *HEADLINE[1:]), folder / "headline.png", dpi=200)
 
 
 def make(arguments, folder):

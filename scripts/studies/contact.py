@@ -141,7 +141,7 @@ def growth_text(growths, rows):
             "all contacts together may have, so that no particle ends further off than a tenth of the error of the "
             "paper's rule in the height.\n\n" + study.table(head, lines) +
             "\nExample 3 collapses: its two solutions part, and no step and no rule converges to a particle's place. "
-            f"At commit {', '.join(sorted({g['commit'] for g in growths.values()}))}.\n")
+            f"The solutions are of commit {', '.join(sorted({g['commit'] for g in growths.values()}))}.\n")
 
 
 def whole_text(rows):
