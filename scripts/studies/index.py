@@ -39,7 +39,7 @@ ROWS = (
         "scripts/studies/large_balls.sh", "every repetition: [large-balls.json](large-balls.json)",
         ("large-balls.md", "large-balls.json", "large-balls.png")),
     Row("monitor_cost.md", "What watching a run costs", "scripts/studies/monitor_cost.py", "", ("monitor_cost.md",)),
-    Row("equivalence.txt", "Is it right: kernels against the oracle on whole runs", "bounce verify --full", "",
+    Row("equivalence.txt", "Is it right: kernels against the oracle on whole runs", "bounce verify --full --out results/equivalence.txt", "",
         ("equivalence.txt",)),
     Row("extremes.md", "Stiff and extreme scenes, each with what it should do and what it did",
         "scripts/studies/extremes.sh", "the rows as numbers: [extremes.csv](extremes.csv)",
