@@ -6,27 +6,15 @@ runs of several commits, need --allow-dirty. origin.json, beside the pictures, s
 made from.
 """
 
-import argparse
-import io
 import json
-import os
 import shlex
-import shutil
-import subprocess
 import sys
-import tempfile
-from datetime import datetime, timezone
-from pathlib import Path
 
-try:
-    from PIL import Image  # comes with matplotlib
-
-    from pictures import ball, falls, overview, throws
-    from pictures.drawing import plt
-    from pictures.paper import check_is_example
-    from pictures.run import RunError, read_run
-except ImportError as missing:
-    sys.exit(f"figures.py: {missing}; install it with: apt-get install python3-matplotlib")
+from pictures import ball, drawing, falls, overview, throws
+from pictures.paper import check_is_example
+from pictures.run import read_run
+from studies import study
+from studies.study import InputError
 
 # Number: file name, examples it is drawn from, function. 0 is the overview, no figure of the paper.
 FIGURES = {
@@ -48,61 +36,34 @@ FIGURES = {
 
 
 def read_arguments():
-    root = Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    add = parser.add_argument
-    add("--runs", type=Path, default=root / "runs", metavar="DIR",
-        help="holds the run directories example-1 ... example-7 [runs]")
-    add("--out", type=Path, default=root / "results" / "figures", metavar="DIR",
-        help="where the pictures go [results/figures]")
-    add("--only", type=int, nargs="+", choices=sorted(FIGURES), metavar="N",
-        default=list(FIGURES), help="these figures; 0 is the overview")
-    add("--allow-dirty", action="store_true",
-        help="draw runs of changed trees or several commits, too")
+    parser = study.parser_of(__doc__.splitlines()[0], "the run directories example-1 ... example-7",
+                             out="results/figures")
+    parser.add_argument("--only", type=int, nargs="+", choices=sorted(FIGURES), metavar="N", default=list(FIGURES),
+                        help="these figures; 0 is the overview")
     return parser.parse_args()
 
 
 def read_examples(folder, numbers):
-    """The runs by example; RunError with a line for each that cannot be drawn."""
+    """The runs by example; InputError with a line for each that cannot be drawn."""
     runs, troubles = {}, []
     for number in sorted(numbers):
         try:
             runs[number] = read_run(folder / f"example-{number}")
             check_is_example(runs[number], number)
-        except RunError as error:
+        except InputError as error:
             troubles.append(str(error))
     if troubles:
         lines = "\n  ".join(["runs missing or not fit to draw:", *troubles])
-        raise RunError(f"{lines}\nscripts/start.sh makes them all.")
+        raise InputError(f"{lines}\nscripts/start.sh makes them all.")
     return runs
 
 
-def script_commit():
-    """The commit of the scripts that draw, -dirty if they have changes."""
-
-    def git(*words):
-        command = ["git", "-C", str(Path(__file__).resolve().parent), *words]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-    try:
-        changes = git("status", "--porcelain", "--", ".")
-        return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "")
-    except (OSError, subprocess.CalledProcessError):
-        return "unknown"
-
-
 def check_clean(runs, drawn_by):
-    """RunError unless all was made from one commit, and drawn from one, with nothing changed."""
-    commits = {run.record["origin"]["commit"] for run in runs.values()}
-    for commit in sorted(commits | {drawn_by}):
-        if commit == "unknown" or commit.endswith("-dirty"):
-            what = "scripts/" if commit == drawn_by and commit not in commits else "the runs"
-            raise RunError(
-                f"commit of {what}: {commit}; allowed is a commit without changes, or --allow-dirty"
-            )
-    if len(commits) > 1:
-        found = ", ".join(sorted(commits))
-        raise RunError(f"commits of the runs: {found}; allowed is a single one, or --allow-dirty")
+    """InputError unless all was made from one commit, and drawn from one, with nothing changed."""
+    for run in runs.values():
+        study.check_clean(run.path, run.record["origin"]["commit"])
+    study.check_clean("scripts/", drawn_by)
+    study.one_commit(run.record["origin"]["commit"] for run in runs.values())
 
 
 def origin(runs, drawn_by, pictures):
@@ -115,7 +76,7 @@ def origin(runs, drawn_by, pictures):
     return {
         "commit": only("commit"),
         "drawn_by_commit": drawn_by,
-        "date": datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "date": study.now(),
         "cpu": only("cpu"),
         "compiler": only("compiler"),
         "flags": only("flags"),
@@ -135,49 +96,27 @@ def origin(runs, drawn_by, pictures):
     }
 
 
-def draw_all(numbers, runs, folder):
-    """Draws into the folder; the names of the pictures."""
+def make(numbers, runs, drawn_by, folder):
+    """Draws into the folder; beside the pictures what they were made from."""
     names = []
     for number in numbers:
         name, _, draw = FIGURES[number]
-        figure = draw(runs)
-        pixels = io.BytesIO()
-        figure.savefig(pixels)
-        plt.close(figure)
-        # These drawings have few colours; a palette halves the file.
-        image = Image.open(pixels).convert("RGB").quantize(128, dither=Image.Dither.NONE)
-        image.save(folder / name, optimize=True)
+        drawing.save(draw(runs), folder / name)
         names.append(name)
-    return names
+    text = json.dumps(origin(runs, drawn_by, names), indent=2, ensure_ascii=False)
+    study.write_whole(folder / "origin.json", text + "\n")
 
 
 def main():
     arguments = read_arguments()
     numbers = list(dict.fromkeys(arguments.only))
     runs = read_examples(arguments.runs, {n for i in numbers for n in FIGURES[i][1]})
-    drawn_by = script_commit()
+    drawn_by = study.scripts_commit()
     if not arguments.allow_dirty:
         check_clean(runs, drawn_by)
-    try:
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        # Beside their place: each appears there whole, by rename, and only if all are drawn.
-        partial = Path(tempfile.mkdtemp(prefix=".partial-", dir=arguments.out))
-    except OSError as error:
-        raise RunError(f"--out {arguments.out}: cannot be written: {error.strerror}") from error
-    try:
-        names = draw_all(numbers, runs, partial)
-        text = json.dumps(origin(runs, drawn_by, names), indent=2, ensure_ascii=False)
-        (partial / "origin.json").write_text(text + "\n")
-        for name in [*names, "origin.json"]:
-            os.replace(partial / name, arguments.out / name)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
-    print(f"{len(names)} pictures and origin.json in {arguments.out}")
+    study.publish(arguments.out, lambda folder: make(numbers, runs, drawn_by, folder))
+    print(f"{len(numbers)} pictures and origin.json in {arguments.out}")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except RunError as error:
-        print(f"figures.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    study.run(main)

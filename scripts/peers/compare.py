@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """Sets bounce beside LAMMPS on the same ball: first that it is the same physics, then steps a second.
 
-Writes results/peers.json (raw figures, with their origin) and results/peers.md (the table, which goes
-into README, too). From a clean tree only, on an otherwise idle machine. LAMMPS's files, made from
+  scripts/peers/compare.py [SCENE]      measures
+  scripts/peers/compare.py --page       the table once more, from OUT/peers.json alone
+
+Writes results/peers.json (raw figures, with their origin) and results/peers.md (the table). From a clean tree only, on an otherwise idle machine. LAMMPS's files, made from
 the scene, stay in build/peers.
 
 flying_ball.py reads the ball from bounce; lammps.py gives it to LAMMPS; agreement.py compares the
@@ -13,16 +15,13 @@ fails, 2 if nothing can be compared.
 import argparse
 import json
 import math
-import os
 import shlex
 import shutil
 import subprocess
 import sys
-from datetime import datetime, timezone
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(TOP / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 try:
     import numpy  # noqa: F401, here for its message
@@ -32,7 +31,8 @@ except ImportError:
 
 from peers import agreement, lammps, report, timing
 from peers.flying_ball import PeerError, ask, read_ball
-from pictures.run import RunError
+from studies import study
+from studies.study import ROOT, InputError
 
 
 def read_arguments():
@@ -46,8 +46,9 @@ def read_arguments():
     add("--seconds", type=positive, default=3.0, metavar="S", help="of each timed run, about [3]")
     add("--bounce", type=Path, metavar="FILE", help="the program; without it scripts/build.sh release builds it")
     add("--lammps", default="lmp", metavar="FILE", help="the program [lmp]")
-    add("--out", type=Path, default=TOP / "results", metavar="DIR", help="where the two files go [results]")
+    add("--out", type=Path, default=ROOT / "results", metavar="DIR", help="where the two files go [results]")
     add("--allow-dirty", action="store_true", help="take a tree with uncommitted changes, too")
+    add("--page", action="store_true", help="only makes the table anew, of what --out holds")
     arguments = parser.parse_args()
     arguments.settings = [word for setting in arguments.set for word in ("--set", setting)]
     return arguments
@@ -70,23 +71,18 @@ def positive(text):
     return value
 
 
-def git(*words):
-    done = subprocess.run(["git", "-C", TOP, *words], capture_output=True, text=True, check=False)
-    return done.stdout.strip() if done.returncode == 0 else None
-
-
 def find_bounce(arguments):
     """The program, and its commit, which must be that of the tree, without changes."""
-    if not arguments.allow_dirty and git("status", "--porcelain") != "":
+    if not arguments.allow_dirty and study.git("status", "--porcelain") != "":
         raise PeerError("the tree has uncommitted changes; results come from clean trees (--allow-dirty)")
     program = arguments.bounce
     if program is None:
-        subprocess.run([TOP / "scripts" / "build.sh", "release", "bounce"], check=True, stdout=sys.stderr)
-        program = TOP / "build" / "release" / "bounce"
+        subprocess.run([ROOT / "scripts" / "build.sh", "release", "bounce"], check=True, stdout=sys.stderr)
+        program = ROOT / "build" / "release" / "bounce"
     program = program.resolve()
     first = ask([program, "--version"]).splitlines()[0]
     commit = first.partition("(commit ")[2].rstrip(")")
-    if not arguments.allow_dirty and commit != git("rev-parse", "--short=12", "HEAD"):
+    if not arguments.allow_dirty and commit != study.git("rev-parse", "--short=12", "HEAD"):
         raise PeerError(f"{program} is of commit {commit}, the tree is not: build it anew, or --allow-dirty")
     return program, commit
 
@@ -96,7 +92,7 @@ def origin(arguments, bounce_run, commit, found):
     theirs = bounce_run["origin"]
     return {
         "commit": commit,
-        "date": datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "date": study.now(),
         "cpu": theirs["cpu"],
         "cores": theirs["cores"],
         "compiler": theirs["compiler"],
@@ -108,20 +104,30 @@ def origin(arguments, bounce_run, commit, found):
     }
 
 
-def write_whole(folder, texts):
-    """All files or none: each is written beside its place, then renamed."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, text in texts.items():
-        (folder / f".{name}").write_text(text, encoding="utf-8")
-    for name in texts:
-        os.replace(folder / f".{name}", folder / name)
+def make(record, folder):
+    study.write_whole(folder / "peers.json", json.dumps(record, indent=2, ensure_ascii=False) + "\n")
+    study.write_whole(folder / "peers.md", report.table(record))
+
+
+def old_record(out):
+    try:
+        return json.loads((out / "peers.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{out / 'peers.json'}: cannot be read: {error}") from error
 
 
 def main():
     arguments = read_arguments()
+    record = old_record(arguments.out) if arguments.page else measure(arguments)
+    study.publish(arguments.out, lambda folder: make(record, folder))
+    study.follow(arguments.out)
+    print(report.table(record))
+
+
+def measure(arguments):
     found = lammps.find_lammps(arguments.lammps)
     bounce, commit = find_bounce(arguments)
-    work = TOP / "build" / "peers"
+    work = ROOT / "build" / "peers"
     shutil.rmtree(work, ignore_errors=True)
     ball = read_ball(bounce, arguments.scene, arguments.settings, work / "start")
     agreed = agreement.compare_flights(bounce, found, ball, arguments, work)
@@ -131,24 +137,18 @@ def main():
                 *timing.bounce_subjects(bounce, arguments, work)]
     rates = timing.time_rounds(subjects, arguments.rounds, arguments.seconds, ball.flight_steps())
     run = json.loads((work / "start" / "run.json").read_text())
-    record = {
+    return {
         "origin": origin(arguments, run, commit, found),
         "agreement": agreed,
         "rows": [{"program": subject.program, "cores": subject.cores, "how": subject.how, "steps": subject.steps,
                   "steps_per_second": rate} for subject, rate in zip(subjects, rates)],
     }
-    text = report.table(record)
-    write_whole(arguments.out, {"peers.json": json.dumps(record, indent=2, ensure_ascii=False) + "\n",
-                                "peers.md": text})
-    if arguments.out.resolve() == TOP / "results":
-        subprocess.run([TOP / "scripts" / "update_readme.py"], check=True)
-    print(text)
 
 
 if __name__ == "__main__":
     try:
         main()
-    except (PeerError, RunError) as error:
+    except InputError as error:
         print(f"compare.py: {error}", file=sys.stderr)
         sys.exit(2)
     except (agreement.Disagreement, lammps.LammpsFailed) as error:

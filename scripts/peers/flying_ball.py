@@ -1,8 +1,8 @@
 """The ball of a scene as another program must be told of it: start, bonds, constants, walls.
 
 bounce prints what a scene resolves to (bounce show) and the start (a frame of a run of one step). Bonds
-and constants it does not print: they are derived here as MODEL.md 1 and 2 (kernels/model/bonds.cpp,
-problem.cpp) have them, and proved right by the energy that bounce finds in its own bonds at the start.
+and constants it does not print: they are derived here as kernels/model/bonds.cpp and
+problem.cpp have them, and proved right by the energy that bounce finds in its own bonds at the start.
 """
 
 import math
@@ -13,11 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pictures.run import read_run
+from studies.study import InputError
 
 LISTING_REST_SQUARED = [0.06854, 1.0205, 0.09865, 1.028925, 0.1343]  # cm^2, the listing's constants/16000
 
 
-class PeerError(Exception):
+class PeerError(InputError):
     """What cannot be compared; the message says why, and what would do."""
 
 

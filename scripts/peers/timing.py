@@ -13,6 +13,7 @@ from typing import Callable
 
 from peers.flying_ball import run_bounce
 from peers.lammps import Bonds, run_lammps
+from studies.benchmarks import PINNED
 
 TABLE, HARMONIC = "LAMMPS, tabulated bonds", "LAMMPS, harmonic bonds"
 
@@ -64,8 +65,7 @@ def bounce_subjects(bounce, arguments, folder):
 
 def time_rounds(subjects, rounds, seconds, most_steps):
     """Steps a second: a list a subject, an entry a round. Each run takes about so many seconds."""
-    # As scripts/bench.sh has it: two threads keep to their cores, and spin.
-    os.environ.update(OMP_PROC_BIND="close", OMP_PLACES="cores", OMP_WAIT_POLICY="active")
+    os.environ.update(PINNED)
     for subject in subjects:
         steps = 2000
         while subject.seconds(steps) < 0.2 and steps < most_steps:

@@ -1,159 +1,230 @@
-"""Error against run time and against force evaluations, from bounce accuracy."""
+"""Error against run time, from bounce accuracy: of each method the frontier over its contact rules, steps and
+tolerances."""
 
-import csv
-import json
 import math
-import statistics
-from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import LogLocator
 
 from pictures import drawing
 from pictures.drawing import plt
-from pictures.run import RunError
 
-COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c", "#8a9099", "#c1121f",
-           "#d4a5c9", "#3d405b", "#b5a642", "#00798c"]
-STYLES = {"resolved": {"marker": "o", "markersize": 3},
-          "listing": {"marker": "x", "markersize": 4, "linestyle": ":"},
-          "located": {"marker": "s", "markersize": 3, "linestyle": "--"}}
-# Over the contact's, for what is not in double precision.
-PRECISIONS = {"double": {}, "compensated": {"marker": "^", "markersize": 4, "linestyle": "-."},
-              "single": {"marker": "v", "markersize": 4, "linestyle": (0, (5, 1, 1, 1, 1, 1))}}
-TEXTS = ("method", "contact", "precision", "kernel", "note")
+COLOURS = {"listing": "#2b5c8a", "leapfrog": "#e08e45", "yoshida-4": "#4fa3a5", "pefrl": "#7a5195",
+           "blanes-moan-4": "#6b8e23", "blanes-moan-6": "#a05a2c", "conservative": "#8a9099"}
+GSL = "#3d405b"
+MARKERS = {"resolved": {"marker": "o", "markersize": 3},
+           "listing": {"marker": "x", "markersize": 4, "linestyle": ":"},
+           "located": {"marker": "s", "markersize": 3, "linestyle": "--"}}
 PANELS = {
-    "position": "largest position error\njust before the impact, cm",
+    "position": "particles just before\nthe impact, cm",
     "height": "height of the centre\nat the end, cm",
     "energy_lost": "energy lost\nat the end, erg",
     "contact_time": "time in contact, s",
     "flattening": "greatest flattening",
-    "energy": "energy, largest error\nat any time, erg",
+    "energy": "energy at any time, erg",
 }
+HEADLINE = ("position", "height", "energy_lost")
+HEADLINE_METHODS = ("listing", "leapfrog", "pefrl", "blanes-moan-6")
+NAMES = {"listing": "paper's scheme"}  # in the headline, whose readers do not know the names of the methods
 
 
-@dataclass
-class Study:
-    """accuracy.csv: the reference's error bar and a dictionary a row; origin.json."""
-
-    bar: dict
-    rows: list
-    origin: dict
-
-    def lines(self):
-        """(method, contact, precision) to its rows."""
-        found = {}
-        for row in self.rows:
-            found.setdefault((row["method"], row["contact"], row["precision"]), []).append(row)
-        return found
-
-    def most_energy(self):
-        """Errors of energy beyond it, erg, are those of balls that have blown up: the rest would be squeezed into
-        a corner beside them."""
-        known = [row["error_energy"] for row in self.rows if math.isfinite(row["error_energy"])]
-        return 1e4 * statistics.median(known) if known else math.inf
-
-    def papers(self):
-        """The paper's program: listing, its contact, 1e-6 s; None without it."""
-        return next((row for row in self.rows if row["method"] == row["contact"] == "listing"
-                     and row["precision"] == "double" and abs(row["dt"] / 1e-6 - 1.0) < 1e-9), None)
+def colour_of(method):
+    return COLOURS.get(method, GSL)
 
 
-def read_study(folder):
-    """RunError if the folder holds no study, or one with a number that is none."""
-    path = folder / "accuracy.csv"
-    try:
-        with open(path, newline="") as file:
-            rows = list(csv.DictReader(file, restval=None))
-        for row in rows:
-            for key, text in row.items():
-                if text is None:
-                    raise ValueError(f"a row without {key}")
-                if key not in TEXTS:
-                    row[key] = float(text) if text else math.nan
-        origin = json.loads((folder / "origin.json").read_text())
-    except (OSError, TypeError, ValueError) as error:
-        raise RunError(f"{path}: cannot be read: {error}") from error
-    wanted = ("precision", "dt", "seconds", "evaluations", *(f"error_{name}" for name in PANELS))
-    if len(rows) < 2 or rows[0].get("method") != "reference" or any(key not in rows[0] for key in wanted):
-        raise RunError(f"{path}: no rows of bounce accuracy")
-    return Study(rows[0], rows[1:], origin)
+def style_of(contact):
+    return MARKERS[contact]
 
 
-def style_of(contact, precision):
-    return STYLES[contact] | PRECISIONS[precision]
+def label_of(method, contact):
+    return f"{method}, {contact}"
 
 
-def label_of(method, contact, precision):
-    return f"{method}, {contact}" + ("" if precision == "double" else f", {precision}")
+def lines_of(study, only=None):
+    """Name to (methods, colour): a line a method, one for all of GSL's."""
+    found = {method: ((method,), colour_of(method)) for method in study.methods()
+             if not method.startswith("gsl-") and (only is None or method in only)}
+    gsl = tuple(method for method in study.methods() if method.startswith("gsl-"))
+    return found | ({"GSL's solvers": (gsl, GSL)} if gsl else {})
 
 
-def draw_panel(axes, study, cost, name, colours):
-    key, most = f"error_{name}", study.most_energy()
-    for (method, contact, precision), all_rows in study.lines().items():
-        # Beyond the edge of stability, or where the error is 0, there is nothing to show.
-        rows = sorted((r for r in all_rows if math.isfinite(r[key]) and r[key] > 0 and r["error_energy"] <= most),
-                      key=lambda r: r[cost])
-        label = label_of(method, contact, precision)
-        if not any(r["error_height"] < math.inf for r in all_rows):
-            label += " (not finished)"
-        axes.plot([r[cost] for r in rows], [r[key] for r in rows], color=colours[method], linewidth=1.0, label=label,
-                  **style_of(contact, precision))
-    if not any(0 < r[key] < math.inf for r in study.rows):
-        axes.text(0.5, 0.5, f"{PANELS[name]}:\nnothing to show, it starts at a wall", transform=axes.transAxes,
-                  ha="center", va="center", color="#5a6068", fontsize=8)
+def frontiers_of(study, name, lines):
+    """Line to its points. Where a method is off by far more than the paper's program, nobody wants it."""
+    papers = study.papers()
+    worst = 300.0 * max(papers[f"error_{name}"], study.bar[f"error_{name}"]) if papers else math.inf
+    found = {label: [(seconds, error) for seconds, error in study.frontier(methods, name) if 0.0 < error <= worst]
+             for label, (methods, _) in lines.items()}
+    return {label: points for label, points in found.items() if points}
+
+
+def draw_panel(axes, study, name, lines):
+    """Frontiers, the paper's program, and in grey what the reference does not know."""
+    frontiers = frontiers_of(study, name, lines)
+    axes.set_title(PANELS[name], loc="left", fontsize=9.5)
+    if not frontiers:
+        axes.text(0.5, 0.5, "nothing to show:\nit starts at a wall", transform=axes.transAxes, ha="center", va="center",
+                  color="#5a6068")
         axes.set_axis_off()
         return
-    papers = study.papers()
-    if papers:
-        oracle = study.origin.get("oracle_seconds") or papers["seconds"]
-        axes.plot([oracle if cost == "seconds" else papers[cost]], [papers[key]], marker="*", markersize=11,
-                  color=drawing.MARK, linestyle="none", zorder=5, label="the paper's program, 1e-6 s")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.grid(color="#e6e8eb", linewidth=0.5)
-    if study.bar[key] > 0:
-        low, high = axes.get_ylim()
-        axes.axhspan(min(low, study.bar[key] / 10), study.bar[key], color="#e6e8eb", zorder=0)
-        axes.set_ylim(max(low, study.bar[key] / 3), high)
+    axes.set(xscale="log", yscale="log")
+    for label, points in frontiers.items():
+        axes.plot(*zip(*points), color=lines[label][1], linewidth=1.5, marker="o", markersize=2.2, label=label,
+                  zorder=3)
+    if study.papers():
+        axes.plot(study.papers_seconds(), study.papers()[f"error_{name}"], marker="*", markersize=13, label="_",
+                  color=drawing.MARK, markeredgecolor="white", markeredgewidth=0.6, linestyle="none", zorder=6)
+    low, high = axes.get_ylim()
+    known = study.bar[f"error_{name}"]
+    if known > 0.0:
+        low = min(low, known * (known / high) ** 0.09)
+        axes.axhspan(low / 10, known, color="#e6e8eb", zorder=0, linewidth=0)
+    axes.set_ylim(low, high)
+    axes.minorticks_off()
+    if high / low < 100.0:  # powers of ten alone would be one or two
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter("{x:g}")
+    axes.grid(color="#eceef0", linewidth=0.5)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
 
 
-def draw_guides(axes):
-    """Slopes of the orders, over evaluations."""
-    low, high = axes.get_ylim()
-    left, right = axes.get_xlim()
-    for order, label in ((1, "1"), (2, "2"), (4, "4"), (6, "6")):
-        start = (left * (right / left) ** 0.62, high / 1.5)
-        x = [start[0], start[0] * 10 ** (0.9 / order)]
-        axes.plot(x, [start[1], start[1] * 10 ** -0.9], color="#8a9099", linewidth=0.8)
-        # The two steepest end side by side.
-        axes.annotate(label, (x[1], start[1] * 10 ** -0.9), fontsize=6.5, color="#5a6068",
-                      ha="right" if order == 6 else "left")
-    axes.set_xlim(left, right)
-    axes.set_ylim(low, high)
+def set_costs(panels, study, names, lines):
+    """The same run times in all panels."""
+    seconds = [point[0] for name in names for points in frontiers_of(study, name, lines).values() for point in points]
+    if study.papers():
+        seconds.append(study.papers_seconds())
+    if seconds:
+        for axes in panels.flat:
+            axes.set_xlim(min(seconds) / 2.5, max(seconds) * 2.5)
+
+
+def place_names(axes, size):
+    """The name of each line beside it, where it covers least of lines, stars and other text: tried are places along
+    the line."""
+    named = [line for line in axes.lines if not line.get_label().startswith("_")]
+    if not named:
+        return
+    to_pixels, renderer = axes.transData.transform, axes.figure.canvas.get_renderer()
+    frame_box = axes.get_window_extent().padded(-0.4 * size)
+    taken = [text.get_window_extent(renderer).extents for text in axes.texts]
+    for star in (line for line in axes.lines if line.get_marker() == "*"):
+        x, y = to_pixels((star.get_xdata()[0], star.get_ydata()[0]))
+        taken.append((x - size, y - size, x + size, y + size))
+    texts = [axes.text(0, 0, line.get_label(), color=line.get_color(), fontsize=size, fontweight="bold", zorder=7,
+                       path_effects=[withStroke(linewidth=2.5, foreground="white")]) for line in named]
+    boxes = [text.get_window_extent(renderer) for text in texts]
+    dense = [dense_line(to_pixels(line.get_xydata())) for line in named]
+    others = [np.vstack([np.empty((0, 2)), *dense[:i], *dense[i + 1:]]) for i in range(len(dense))]
+    placed = [None] * len(named)
+    for _ in range(3):  # again, as those placed first did not know of the others
+        for i, box in enumerate(boxes):
+            names = [*taken, *(place for j, place in enumerate(placed) if place and j != i)]
+            placed[i] = min(candidates(dense[i], box.width, box.height),
+                            key=lambda place: cost_of(place, dense[i], others[i], names, frame_box))
+    for text, place in zip(texts, placed):
+        text.set_position(axes.transData.inverted().transform(place[:2]))
+
+
+def dense_line(corners, spacing=4.0):
+    """Points along a line of these corners, every few pixels."""
+    corners = np.asarray(corners, dtype=float)
+    parts = [corners[:1]]
+    for a, b in zip(corners, corners[1:]):
+        count = max(1, int(np.hypot(*(b - a)) / spacing))
+        parts.append(a + (b - a) * np.linspace(0, 1, count + 1)[1:, None])
+    return np.vstack(parts)
+
+
+def candidates(line, width, height):
+    """Boxes (left, bottom, right, top) beside points of the line."""
+    for x, y in line[::3]:
+        for gap in (0.5 * height, 1.0 * height):
+            for left in (x + gap, x - gap - width):
+                for bottom in (y + gap, y - gap - height, y - 0.5 * height):
+                    yield left, bottom, left + width, bottom + height
+            for bottom in (y + gap, y - gap - height):
+                yield x - 0.5 * width, bottom, x + 0.5 * width, bottom + height
+
+
+def cost_of(box, own, others, names, frame_box):
+    """How bad a place for a name is: near other lines than its own, over names, off the panel, far from the middle."""
+    left, bottom, right, top = box
+    height = top - bottom
+    to_own, to_others = distances(box, own), distances(box, others)
+    cost = 20.0 * (np.count_nonzero(to_own < 0.35 * height) + np.count_nonzero(to_others < 0.2 * height))
+    cost += 3.0 * np.count_nonzero(to_others < 0.7 * height)
+    if len(others) and to_others.min() < to_own.min():  # it would be read as that line's
+        cost += 300.0
+    cost += 10.0 * sum(max(0.0, min(right, name[2]) - max(left, name[0])) *
+                       max(0.0, min(top, name[3]) - max(bottom, name[1])) for name in names)
+    cost += 50.0 * (max(0.0, frame_box.x0 - left) + max(0.0, right - frame_box.x1) +
+                    max(0.0, frame_box.y0 - bottom) + max(0.0, top - frame_box.y1))
+    middle = own[len(own) // 2]
+    return cost + 0.1 * math.hypot(0.5 * (left + right) - middle[0], 0.5 * (bottom + top) - middle[1])
+
+
+def distances(box, points):
+    """Of the points from the box, pixels; 0 within."""
+    x, y = points.T
+    across = np.maximum(np.maximum(box[0] - x, x - box[2]), 0.0)
+    return np.hypot(across, np.maximum(np.maximum(box[1] - y, y - box[3]), 0.0))
+
+
+def draw_same_in_bounce(axes, study, name):
+    """The paper's scheme, contact and step, as bounce runs them."""
+    papers, seconds = study.papers(), study.papers_seconds()
+    error = papers[f"error_{name}"]
+    axes.plot([papers["seconds"], seconds], [error, error], color=drawing.MARK, linewidth=0.9,
+              linestyle=(0, (1, 2)), zorder=4)
+    axes.plot([papers["seconds"]], [error], marker="*", markersize=10, markerfacecolor="white", color=drawing.MARK,
+              zorder=6)
+
+
+def headline(study, title, below):
+    """Three panels for README, at its width."""
+    figure, panels = plt.subplots(1, len(HEADLINE), figsize=(9.0, 4.1), sharex=True, layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.89))
+    times = study.papers_seconds() / study.papers()["seconds"]
+    for (x, y), side, text, style in (
+            ((0.012, 0.985), "left", title, {"fontsize": 11.5, "fontweight": "bold"}),
+            ((0.012, 0.925), "left", below, {"color": "#5a6068"}),
+            ((0.992, 0.98), "right", "\N{BLACK STAR} the paper's program", {"color": drawing.MARK}),
+            ((0.992, 0.925), "right", f"\N{WHITE STAR} its scheme and steps in bounce: {times:.0f} times sooner",
+             {"color": drawing.MARK})):
+        figure.text(x, y, text, ha=side, va="top", **({"fontsize": 8.5} | style))
+    lines = {NAMES.get(method, method): line for method, line in lines_of(study, HEADLINE_METHODS).items()}
+    draw_panels(panels, study, HEADLINE, lines)
+    for axes, name in zip(panels, HEADLINE):
+        draw_same_in_bounce(axes, study, name)
+    panels[0].annotate("the reference knows no better", (0.99, 0.02), xycoords="axes fraction", ha="right", va="bottom",
+                       fontsize=7, color="#5a6068")
+    name_lines(panels, 8.5)
+    return figure
 
 
 def figure_of(study, title):
-    """A row of panels over run time, one over evaluations."""
-    methods = list(dict.fromkeys(row["method"] for row in study.rows))
-    colours = {method: COLOURS[i % len(COLOURS)] for i, method in enumerate(methods)}
-    # The last row is the legend's, of three columns.
-    legend_height = 0.4 + 0.18 * math.ceil((len(study.lines()) + 1) / 3)
-    figure, panels = plt.subplots(len(PANELS) + 1, 2, figsize=(10.0, 2.6 * len(PANELS) + legend_height),
-                                  layout="constrained", sharey="row",
-                                  gridspec_kw={"height_ratios": [2.6] * len(PANELS) + [legend_height]})
-    *panels, below = panels
-    for row, (name, label) in zip(panels, PANELS.items()):
-        for axes, cost in zip(row, ("seconds", "evaluations")):
-            draw_panel(axes, study, cost, name, colours)
-        if row[1].axison:
-            draw_guides(row[1])
-        row[0].set_ylabel(label)
-    panels[-1][0].set_xlabel("run time on one thread, s")
-    panels[-1][1].set_xlabel("force evaluations (short lines: orders 1, 2, 4, 6)")
-    for axes in below:
-        axes.axis("off")
-    legend = below[0].legend(*panels[-1][0].get_legend_handles_labels(), loc="upper left", ncols=3, frameon=False,
-                             fontsize=8)
-    legend.set_in_layout(False)  # it is wider than its panel
+    """All methods in all panels."""
+    figure, panels = plt.subplots(2, 3, figsize=(10.0, 7.2), sharex=True, layout="constrained")
     drawing.set_caption(figure, title)
+    draw_panels(panels, study, PANELS, lines_of(study))
+    name_lines(panels, 7.5)
     return figure
+
+
+def draw_panels(panels, study, names, lines):
+    rows = np.atleast_2d(panels)
+    for axes in rows[-1]:
+        axes.set_xlabel("run time on one core, s")
+    for row in rows:
+        row[0].set_ylabel("error")
+    panels.flat[0].set_xscale("log")
+    set_costs(panels, study, names, lines)
+    for axes, name in zip(panels.flat, names):
+        draw_panel(axes, study, name, lines)
+
+
+def name_lines(panels, size):
+    panels.flat[0].figure.canvas.draw()  # now the panels have their places
+    for axes in panels.flat:
+        place_names(axes, size)

@@ -1,6 +1,15 @@
-"""How particles, walls and captions look, the same in every figure."""
+"""How particles, walls and captions look, the same in every figure, and how a figure is written."""
 
-import matplotlib
+import io
+import sys
+from pathlib import Path
+
+try:
+    import matplotlib
+except ImportError:
+    print(f"{Path(sys.argv[0]).name}: no matplotlib; install it with: apt-get install python3-matplotlib",
+          file=sys.stderr)
+    sys.exit(2)
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -8,6 +17,9 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Polygon
+from PIL import Image  # comes with matplotlib
+
+from studies.study import InputError
 
 SMALL = 0.13  # radius of a particle, cm: neighbours on ring 1 just touch
 LARGE = 2.5 * SMALL  # the paper's factor
@@ -15,6 +27,8 @@ RING_COLOURS = {1: "#2b5c8a", 2: "#4fa3a5", 3: "#e08e45"}
 GREY = "#c9ccd1"
 INK = "#22262b"
 MARK = "#c1121f"  # the radius that shows the spin
+COLOURS = 128  # of a picture
+MOST_BYTES = 200_000  # of a picture: results/ is to weigh little
 
 plt.rcParams.update(
     {
@@ -118,3 +132,30 @@ def faded(strength):
 def set_caption(figure, text, **where):
     """The line above a figure."""
     figure.suptitle(text, **({"fontsize": 10.5, "x": 0.5} | where))
+
+
+def save(figure, path, dpi=None):
+    """The figure as a PNG. InputError if it is too heavy for results/."""
+    pixels = io.BytesIO()
+    figure.savefig(pixels, **({"dpi": dpi} if dpi else {}))
+    plt.close(figure)
+    write_png(Image.open(pixels), path)
+
+
+def slim_png(path):
+    """The same picture with a palette, if it has none."""
+    image = Image.open(path)
+    if image.mode != "P":
+        image.load()
+        write_png(image, path)
+
+
+def write_png(image, path):
+    """These drawings have few colours: a palette makes the file a half to a quarter as large."""
+    pixels = io.BytesIO()
+    image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(pixels, format="PNG", optimize=True)
+    if pixels.tell() > MOST_BYTES:
+        raise InputError(f"{path}: {pixels.tell()} bytes; allowed is at most {MOST_BYTES}")
+    temporary = path.with_name(f".{path.name}.tmp")
+    temporary.write_bytes(pixels.getvalue())
+    temporary.replace(path)

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from pictures import drawing
 from pictures.drawing import plt
-from pictures.run import RunError
+from studies.study import InputError
 
 METHOD_COLOURS = ["#2b5c8a", "#e08e45", "#4fa3a5", "#7a5195", "#6b8e23", "#a05a2c"]
 STABLE, BETWEEN, UNSTABLE = "#eef4f0", "#faf6e6", "#f7ecea"
@@ -33,7 +33,7 @@ TEXTS = ("method", "passage", "sought", "outcome")
 
 
 def read_sweep(folder):
-    """RunError if the folder holds no sweep, or one with a number that is none."""
+    """InputError if the folder holds no sweep, or one with a number that is none."""
     path = folder / "edge.csv"
     try:
         with open(path, newline="") as file:
@@ -43,9 +43,9 @@ def read_sweep(folder):
                 if key not in TEXTS:
                     row[key] = float(text) if text else math.nan
     except (OSError, TypeError, ValueError) as error:
-        raise RunError(f"{path}: cannot be read: {error}") from error
+        raise InputError(f"{path}: cannot be read: {error}") from error
     if not rows or any(key not in rows[0] for key in (*TEXTS, "E", "dt", "predicted", "strict", "stable")):
-        raise RunError(f"{path}: no rows of bounce stability")
+        raise InputError(f"{path}: no rows of bounce stability")
     return Sweep(path, rows)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from pictures.run import RunError
+from studies.study import InputError
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ EXAMPLES = {
 
 
 def check_is_example(run, number):
-    """RunError unless the run's scene is this example of the paper and has its pictures' times."""
+    """InputError unless the run's scene is this example of the paper and has its pictures' times."""
     paper, scene = EXAMPLES[number], run.scene
     wall_rules = {(wall["alpha"], wall["beta"]) for wall in scene["wall"]}
     wanted = {
@@ -48,7 +48,7 @@ def check_is_example(run, number):
     }
     for key, (found, asked) in wanted.items():
         if found != asked:
-            raise RunError(
+            raise InputError(
                 f"{run.path / 'scene.toml'}: {key} is {found}, Example {number} has {asked}"
             )
     for time in paper.times:

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-
-class RunError(Exception):
-    """A run that cannot be drawn; the message names the file and what is wrong."""
+from studies.study import InputError
 
 
 @dataclass
@@ -32,21 +30,21 @@ class Run:
     monitor: dict  # column name -> values
 
     def at(self, time):
-        """The frame at this time; RunError if the run wrote none."""
+        """The frame at this time; InputError if the run wrote none."""
         half_step = 0.5 * self.scene["time"]["step"]
         for frame in self.frames:
             if abs(frame.time - time) < half_step:
                 return frame
-        raise RunError(f"{self.path / 'frames.extxyz'}: no frame at t = {time:g} s")
+        raise InputError(f"{self.path / 'frames.extxyz'}: no frame at t = {time:g} s")
 
 
 def read_run(path):
-    """The complete run in this directory. RunError if it is missing, incomplete or not finite."""
+    """The complete run in this directory. InputError if it is missing, incomplete or not finite."""
     if not (path / "run.json").is_file():
-        raise RunError(f"{path}: no run there")
+        raise InputError(f"{path}: no run there")
     record = read_with(lambda file: json.loads(file.read_text()), path / "run.json")
     if record.get("status") != "complete":
-        raise RunError(f"{path}: the run is not complete but {record.get('status')}")
+        raise InputError(f"{path}: the run is not complete but {record.get('status')}")
     return Run(
         path,
         read_with(lambda file: tomllib.loads(file.read_text()), path / "scene.toml"),
@@ -57,13 +55,13 @@ def read_run(path):
 
 
 def read_with(reader, path):
-    """What the reader makes of the file; RunError naming the file if it cannot."""
+    """What the reader makes of the file; InputError naming the file if it cannot."""
     try:
         return reader(path)
     except OSError as error:
-        raise RunError(f"{path}: {error.strerror}") from error
+        raise InputError(f"{path}: {error.strerror}") from error
     except ValueError as error:
-        raise RunError(f"{path}: cannot be read: {error}") from error
+        raise InputError(f"{path}: cannot be read: {error}") from error
 
 
 def read_frames(path):
