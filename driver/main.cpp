@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "driver/world/commands.hpp"
+#include "driver/world/cores.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/shell_word.hpp"
@@ -95,4 +96,7 @@ int main_with_errors(int argc, char** argv) {
 }  // namespace
 }  // namespace bounce
 
-int main(int argc, char** argv) { return bounce::main_with_errors(argc, argv); }
+int main(int argc, char** argv) {
+  bounce::limit_threads();
+  return bounce::main_with_errors(argc, argv);
+}

@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
-# Tests everything: installs what is missing, builds with warnings as errors, compares the kernels
-# with the oracle (bounce verify --quick), then runs all tests. Exit code 0 only if all of it holds.
+# Tests everything: installs what is missing, checks the rules of the house and README's numbers, builds
+# with warnings as errors, compares the kernels with the oracle (bounce verify --quick), then runs all
+# tests. Exit code 0 only if all of it holds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install.sh
-scripts/build.sh ci
 failed=()
+scripts/check_house.py || failed+=('check_house.py (its lines are at the top)')
+scripts/readme_numbers.py --check || failed+=('readme_numbers.py --check (its lines are at the top)')
+scripts/build.sh ci
 build/ci/bounce verify --quick || failed+=('bounce verify --quick (its table is above the tests)')
 ctest --preset ci -j2 --output-log build/ci/ctest.log || failed+=(ctest)
 # Again at the end: ctest lists what it skipped after its summary.

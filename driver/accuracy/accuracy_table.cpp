@@ -74,10 +74,6 @@ std::string_view contact_name(const AccuracyRow& row) {
   return word_of(row.setting.contact);
 }
 
-double error_or_bar(double error, double bar) {
-  return error > bar ? error : std::isnan(error) ? error : bar;
-}
-
 std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,
                                             const PapersProgram& papers, const CourseErrors& bar) {
   if (!papers.row) return {};

@@ -25,9 +25,6 @@ struct PapersProgram {
 /// "listing", "resolved" or, where the very time of a contact is found, "located".
 std::string_view contact_name(const AccuracyRow& row);
 
-/// What an error is set against: below its own uncertainty (the reference's) it counts as that.
-double error_or_bar(double error, double bar);
-
 /// The cheapest row that is no worse than the paper's program in any observable; nothing if there
 /// is none, or that program went astray. Errors below the reference's bar count as the bar.
 std::optional<std::size_t> cheapest_as_good(std::span<const TimedRow> rows,

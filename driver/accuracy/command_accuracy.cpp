@@ -11,7 +11,7 @@
 #include "driver/accuracy/accuracy_study.hpp"
 #include "driver/accuracy/accuracy_table.hpp"
 #include "driver/world/commands.hpp"
-#include "driver/accuracy/course_timing.hpp"
+#include "verify/accuracy/course_timing.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"

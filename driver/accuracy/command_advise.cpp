@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "driver/accuracy/advice.hpp"
+#include "driver/run/advice_text.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/scene/load_problem.hpp"
@@ -46,7 +46,7 @@ int advise_on(Options& options) {
   options.request.scene = file.scene();
   if (!options.initial.empty()) options.request.initial = read_state(options.initial);
   catch_interrupts();
-  const auto advice = advise(options.request);
+  const auto advice = ask_advice(options.request);
   if (!advice) {
     fmt::print(stderr, "bounce: interrupted\n");
     return exit_interrupted;

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/accuracy/advice.hpp"
+#include "driver/run/advice_text.hpp"
 #include "driver/run/extended_xyz.hpp"
 #include "driver/run/ledger_csv.hpp"
 #include "driver/run/monitor_csv.hpp"
@@ -73,7 +73,7 @@ std::optional<std::string> take_advice(const Options& options, SceneFile& file) 
   check_memory(file, options.request.kernel, available_memory());
   load_problem(file, options.initial);  // throws what is wrong with it
   catch_interrupts();
-  const auto advice = advise(request);
+  const auto advice = ask_advice(request);
   if (!advice) return std::nullopt;
   for (const std::string& setting : settings_of(*advice, request.scene)) file.set(setting);
   return describe(*advice, request);

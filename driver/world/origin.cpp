@@ -7,7 +7,7 @@
 
 #include <fmt/chrono.h>
 
-#include "driver/git_commit.hpp"  // generated at each build by git_commit.cmake
+#include "driver/world/git_commit.hpp"  // generated at each build by git_commit.cmake
 
 namespace bounce {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "verify/accuracy/baseline_gsl.hpp"
 #include "verify/accuracy/conservative.hpp"
+#include "verify/accuracy/gsl_flow.hpp"
 #include "verify/vibrations/spectrum.hpp"
 
 namespace bounce {
@@ -129,17 +129,27 @@ BaselineWork solve_conservative(const Problem& problem, double step, std::span<c
   return {stepper.step(), stepper.evaluations()};
 }
 
+// One of GSL's steppers, contacts located as in a reference.
+decltype(Baseline::solve) by_gsl(const gsl_odeiv2_step_type* type) {
+  return [type](const Problem& problem, double tolerance, std::span<const double> times,
+                const ReferenceVisitor& visit, const std::function<void()>& tick) {
+    GslFlow flow(problem, type, tolerance, tick);
+    const ReferenceRun run = ContactCourse<GslFlow>(problem, flow).run(times, visit);
+    return BaselineWork{run.steps, run.evaluations};
+  };
+}
+
 }  // namespace
 
 std::span<const Baseline> baselines() {
   static const std::vector<Baseline> all{
       {"conservative", greenspan, BaselineContact::listing, solve_conservative},
       {"conservative", greenspan, BaselineContact::resolved, solve_conservative},
-      {"gsl-rkf45", gsl, BaselineContact::located, solve_rkf45},
-      {"gsl-rk8pd", gsl, BaselineContact::located, solve_rk8pd},
-      {"gsl-msadams", gsl, BaselineContact::located, solve_msadams},
-      {"gsl-msbdf", gsl, BaselineContact::located, solve_msbdf},
-      {"gsl-bsimp", gsl, BaselineContact::located, solve_bsimp},
+      {"gsl-rkf45", gsl, BaselineContact::located, by_gsl(gsl_odeiv2_step_rkf45)},
+      {"gsl-rk8pd", gsl, BaselineContact::located, by_gsl(gsl_odeiv2_step_rk8pd)},
+      {"gsl-msadams", gsl, BaselineContact::located, by_gsl(gsl_odeiv2_step_msadams)},
+      {"gsl-msbdf", gsl, BaselineContact::located, by_gsl(gsl_odeiv2_step_msbdf)},
+      {"gsl-bsimp", gsl, BaselineContact::located, by_gsl(gsl_odeiv2_step_bsimp)},
   };
   return all;
 }

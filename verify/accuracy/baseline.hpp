@@ -1,5 +1,9 @@
 // Solvers that are no table of stages, as baselines of the methods: an implicit conservative one,
-// and GSL's adaptive ones. One interface; another one is its own file and a line in baseline.cpp.
+// and GSL's adaptive ones, with contacts located as in a reference: Runge-Kutta-Fehlberg of orders 4
+// and 5, Prince-Dormand of 8 and 9, Adams's multistep method of orders 1 to 12, and two for stiff
+// motions, backward differences of orders 1 to 5 and Bader and Deuflhard's extrapolation of the
+// implicit midpoint rule (at most 1000 particles). One interface; another one is a line in
+// baseline.cpp.
 #pragma once
 
 #include <cstdint>

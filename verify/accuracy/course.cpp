@@ -127,4 +127,8 @@ CourseErrors larger_of(const CourseErrors& a, const CourseErrors& b) {
   return both;
 }
 
+double error_or_bar(double error, double bar) {
+  return error > bar ? error : std::isnan(error) ? error : bar;
+}
+
 }  // namespace bounce

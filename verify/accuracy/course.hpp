@@ -87,4 +87,7 @@ CourseErrors errors_of(const CourseRecord& course, const CourseRecord& reference
 /// The larger of each; a NaN if one is.
 CourseErrors larger_of(const CourseErrors& a, const CourseErrors& b);
 
+/// What an error is set against: below its own uncertainty (the reference's) it counts as that.
+double error_or_bar(double error, double bar);
+
 }  // namespace bounce

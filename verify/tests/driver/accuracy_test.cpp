@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "driver/accuracy/accuracy_table.hpp"
-#include "driver/accuracy/advice.hpp"
-#include "driver/accuracy/course_timing.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/accuracy/accuracy.hpp"
+#include "verify/accuracy/advice.hpp"
 #include "verify/accuracy/baseline.hpp"
+#include "verify/accuracy/course_timing.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
 namespace bounce {

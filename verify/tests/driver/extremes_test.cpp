@@ -9,8 +9,8 @@
 #include "driver/extremes/extreme_row.hpp"
 #include "driver/extremes/extreme_table.hpp"
 #include "driver/scene/step_check.hpp"
-#include "kernels/model/problem.hpp"
 #include "kernels/model/method.hpp"
+#include "kernels/model/problem.hpp"
 #include "verify/tests/driver/program_test.hpp"
 
 namespace bounce {

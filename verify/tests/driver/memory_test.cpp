@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "driver/world/input_error.hpp"
 #include "driver/scene/memory_check.hpp"
+#include "driver/world/input_error.hpp"
 
 namespace bounce {
 namespace {

@@ -1,4 +1,6 @@
 // What bounce run makes of a scene.
+#include <omp.h>
+
 #include "verify/tests/driver/program_test.hpp"
 
 namespace bounce {
@@ -117,13 +119,13 @@ TEST_F(DriverRunTest, ADiscFallsAndBounces) {
   }
 }
 
-TEST_F(DriverRunTest, AThickAnnulusIsSteppedByRings) {
+TEST_F(DriverRunTest, AThickAnnulusIsSteppedByAnnulus) {
   ASSERT_EQ(
       run({"run", "annulus", "--steps", "20", "--set", "ball.centre=[0, 21.0785]", "--out", "r"}),
       0)
       << err();
   const std::string json = contents(folder_ / "r/run.json");
-  EXPECT_NE(json.find("\"kernel\": \"rings\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"kernel\": \"annulus\""), std::string::npos) << json;
   EXPECT_EQ(number_after(json, "\"particles\": "), 72000.0);
 }
 
@@ -215,6 +217,20 @@ TEST_F(DriverRunTest, SetChangesWhatRuns) {
     ++found;
   }
   EXPECT_EQ(found, 2U) << scene;
+}
+
+// An annulus of 72 000 particles takes all threads it may have.
+TEST_F(DriverRunTest, FollowsOmpNumThreads) {
+  const Words words{"run", "annulus", "--steps", "1", "--force", "--out", "r"};
+  setenv("OMP_NUM_THREADS", "1", 1);
+  EXPECT_EQ(run(words), 0) << err();
+  EXPECT_NE(contents(folder_ / "r/run.json").find("\"threads\": 1,"), std::string::npos);
+  unsetenv("OMP_NUM_THREADS");
+  EXPECT_EQ(run(words), 0) << err();
+  EXPECT_NE(contents(folder_ / "r/run.json")
+                .find("\"threads\": " + std::to_string(omp_get_num_procs()) + ","),
+            std::string::npos)
+      << "(where a control group allows fewer cores than there are, this fails)";
 }
 
 TEST_F(DriverRunTest, TheOtherCommandsTell) {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/run/run_loop.hpp"
-#include "driver/world/shell_word.hpp"
 #include "driver/run/trouble_text.hpp"
-#include "verify/vibrations/stability_limit.hpp"
+#include "driver/world/shell_word.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/vibrations/stability_limit.hpp"
 
 namespace bounce {
 namespace {

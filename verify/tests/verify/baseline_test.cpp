@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "verify/accuracy/baseline.hpp"
-#include "verify/accuracy/baseline_gsl.hpp"
 #include "verify/accuracy/gsl_flow.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
@@ -36,8 +35,16 @@ struct Solved {
   std::vector<State> states;
   BaselineWork work;
 };
-using Solver = decltype(solve_rk8pd);
-Solved solve(Solver& solver, const Problem& problem, double tolerance) {
+using Solver = decltype(Baseline::solve);
+
+const Solver& solver_named(std::string_view name) {
+  for (const Baseline& baseline : baselines()) {
+    if (baseline.name == name) return baseline.solve;
+  }
+  throw std::invalid_argument(std::string(name));
+}
+const Solver& rk8pd() { return solver_named("gsl-rk8pd"); }
+Solved solve(const Solver& solver, const Problem& problem, double tolerance) {
   std::vector<double> times;
   for (int i = 0; i <= 2; ++i) times.push_back(0.5 * i);
   Solved solved;
@@ -87,7 +94,9 @@ TEST(GslJacobian, IsTheDerivativeOfTheRates) {
 
 class StiffBaseline : public testing::TestWithParam<std::string> {
  protected:
-  static Solver& solver() { return GetParam() == "gsl_msbdf" ? solve_msbdf : solve_bsimp; }
+  static const Solver& solver() {
+    return solver_named(GetParam() == "gsl_msbdf" ? "gsl-msbdf" : "gsl-bsimp");
+  }
 };
 
 // In free flight, against rk8pd. A step may be off by the tolerance times the ball's 14 cm; what
@@ -95,7 +104,7 @@ class StiffBaseline : public testing::TestWithParam<std::string> {
 // twenty such errors.
 TEST_P(StiffBaseline, AgreesWithRk8pdInFlight) {
   const Problem problem = vibrating();
-  const Solved fine = solve(solve_rk8pd, problem, 1e-12);
+  const Solved fine = solve(rk8pd(), problem, 1e-12);
   double last = 0.0;
   for (const double tolerance : {1e-5, 1e-8}) {
     const Solved solved = solve(solver(), problem, tolerance);
@@ -124,10 +133,10 @@ TEST_P(StiffBaseline, MeetsAFloorAsRk8pdDoes) {
     scene.walls[0].alpha = alpha;
     scene.walls[0].contact = Contact::resolved;
     const Problem problem = make_problem(scene);
-    const Solved fine = solve(solve_rk8pd, problem, 1e-12), solved = solve(solver(), problem, 1e-8);
+    const Solved fine = solve(rk8pd(), problem, 1e-12), solved = solve(solver(), problem, 1e-8);
     Problem open = problem;
     open.walls.clear();
-    EXPECT_GT(largest_distance(solve(solve_rk8pd, open, 1e-12).states.back(), fine.states.back()),
+    EXPECT_GT(largest_distance(solve(rk8pd(), open, 1e-12).states.back(), fine.states.back()),
               0.1)
         << "it met no floor";
     const double off = largest_distance(solved.states.back(), fine.states.back());

@@ -1,4 +1,4 @@
-// bounce advise: the cheapest setting that reaches an asked error, found by running the scene.
+// Advice: the cheapest setting that reaches an asked error, found by running the scene.
 //
 // Runs are so cheap here (a whole course of the paper's in some 0.01 s at the largest steps) that
 // nothing need be extrapolated:
@@ -14,11 +14,11 @@
 //     knows no better, nothing would help: refused.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
-#include "driver/accuracy/accuracy_table.hpp"
 #include "verify/accuracy/accuracy.hpp"
 
 namespace bounce {
@@ -30,6 +30,7 @@ struct AdviceRequest {
   std::string observable = "height";  ///< of observable_names, or "position"
   int threads = 0;                    ///< for the pilot; 0: one a core
   bool books = false;                 ///< the run will book every reflection: no located contact
+  std::function<bool()> stop{};       ///< asked after each run; once true, there is no answer
 };
 
 struct Advice {
@@ -43,15 +44,27 @@ struct Advice {
   std::size_t courses = 0;  ///< run by the pilot
 };
 
-/// Throws InputError for an observable that does not exist or that the course does not have, an
-/// error that is not above 0, a scene in which nothing vibrates, or an error that nothing reaches,
-/// with the smallest that something does. Nothing if it was interrupted.
+/// Why there is no advice.
+class NoAdvice : public std::runtime_error {
+ public:
+  enum class Why {
+    nothing_vibrates,  ///< no step is too large
+    not_known,         ///< the run does not have the observable
+    not_reached,       ///< no setting reaches the error; see `smallest`
+  };
+  explicit NoAdvice(Why reason, double least = 0.0)
+      : std::runtime_error("no setting can be advised"), why(reason), smallest(least) {}
+  Why why;
+  double smallest;  ///< error that something is known to reach
+};
+
+/// Whether advice can be asked about it: a name of observable_names, or "position".
+bool is_observable(const std::string& name);
+/// Its unit.
+std::string unit_of(const std::string& observable);
+
+/// Nothing if it was stopped. Throws NoAdvice; std::invalid_argument for an observable that does not
+/// exist or an error that is not above 0.
 std::optional<Advice> advise(const AdviceRequest& request);
-
-/// The advice and its forecasts, for a person: some lines, without an end of line.
-std::string describe(const Advice& advice, const AdviceRequest& request);
-
-/// The advice as keys and values of the scene: "time.step=0.001" and so on.
-std::vector<std::string> settings_of(const Advice& advice, const Scene& scene);
 
 }  // namespace bounce

@@ -1,4 +1,4 @@
-#include "driver/accuracy/advice.hpp"
+#include "verify/accuracy/advice.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -6,14 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "driver/accuracy/course_timing.hpp"
-#include "driver/world/input_error.hpp"
-#include "driver/world/interrupt.hpp"
-#include "driver/scene/scene_keys.hpp"
 #include "kernels/model/method.hpp"
+#include "verify/accuracy/course_timing.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
 namespace bounce {
@@ -40,29 +34,6 @@ double error_of(const CourseErrors& errors, const std::string& observable) {
     if (each.name == observable) return errors.observables.*each.value;
   }
   return errors.position;
-}
-
-void check(const AdviceRequest& request) {
-  std::vector<std::string> names{"position"};
-  bool known = request.observable == "position";
-  for (const ObservableName& each : observable_names) {
-    names.emplace_back(each.name);
-    known = known || each.name == request.observable;
-  }
-  if (!known) {
-    throw InputError(fmt::format("--observable {}: unknown; allowed is {}", request.observable,
-                                 fmt::join(names, ", ")));
-  }
-  if (!(request.error > 0.0 && std::isfinite(request.error))) {
-    throw InputError(fmt::format("--error {}: allowed is a number above 0", request.error));
-  }
-}
-
-std::string unit_of(const std::string& observable) {
-  for (const ObservableName& each : observable_names) {
-    if (each.name == observable) return std::string(each.unit);
-  }
-  return "cm";
 }
 
 // The best comes last: the pilot's own courses have it. Without a wall the rule of contact says
@@ -178,7 +149,7 @@ class Pilot {
   [[nodiscard]] std::vector<Setting> settings(const Setting& kind, const StepSweep& sweep) const {
     auto found = settings_of(request_.scene, request_.initial, kind, sampling_, sweep);
     if (found.empty()) {
-      throw InputError("there is nothing to advise on: nothing vibrates in this scene");
+      throw NoAdvice(NoAdvice::Why::nothing_vibrates);
     }
     auto fewest = static_cast<std::int64_t>(std::ceil(sampling_.every / longest_step_));
     if (sampling_.every / static_cast<double>(fewest) > longest_step_) ++fewest;  // by a rounding
@@ -192,7 +163,7 @@ class Pilot {
                                                             const std::optional<State>& start) {
     courses_ += all.size();
     return measure_accuracy(request_.scene, start, all, sampling, reference, request_.threads,
-                            [](std::size_t) { return !interrupted(); });
+                            [this](std::size_t) { return !(request_.stop && request_.stop()); });
   }
   // The pilot's reference (0), and the course that says how well it is known (1): by the next best
   // method, as resolved contact leaves errors that do not fall as its order says; with located
@@ -231,18 +202,33 @@ class Pilot {
 
 }  // namespace
 
+bool is_observable(const std::string& name) {
+  return name == "position" ||
+         std::any_of(observable_names.begin(), observable_names.end(),
+                     [&](const ObservableName& each) { return each.name == name; });
+}
+
+std::string unit_of(const std::string& observable) {
+  for (const ObservableName& each : observable_names) {
+    if (each.name == observable) return std::string(each.unit);
+  }
+  return "cm";
+}
+
 std::optional<Advice> advise(const AdviceRequest& request) {
-  check(request);
+  if (!is_observable(request.observable)) {
+    throw std::invalid_argument("no such observable: " + request.observable);
+  }
+  if (!(request.error > 0.0 && std::isfinite(request.error))) {
+    throw std::invalid_argument("an error must be above 0");
+  }
   const auto start = Clock::now();
   Pilot pilot(request);
   double smaller = 1.0, known_before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round, smaller *= finer) {
     if (!pilot.find_reference(smaller)) return std::nullopt;
     if (std::isnan(pilot.known_to())) {
-      throw InputError(
-          fmt::format("--observable {}: allowed is another; of this course it is not known (places "
-                      "are compared before the first contact, and it may start with one)",
-                      request.observable));
+      throw NoAdvice(NoAdvice::Why::not_known);
     }
     if (!(margin * pilot.known_to() <= request.error)) {
       // Not known well enough. A finer pilot may know more, but not where this one knew no better
@@ -257,31 +243,8 @@ std::optional<Advice> advise(const AdviceRequest& request) {
       return best;
     }
   }
-  throw InputError(fmt::format(
-      "--error {}: nothing reaches it; the smallest error of {} that something here is known to "
-      "reach is {:.2g} {}",
-      request.error, request.observable,
-      std::max(pilot.smallest_error(), margin * pilot.known_to()), unit_of(request.observable)));
-}
-
-std::string describe(const Advice& advice, const AdviceRequest& request) {
-  return fmt::format(
-      "method {}, contact {}, time step {:.6g} s\n"
-      "forecast: error of {} {:.1e} {} (asked {:g}; known to {:.0e}), run {:.2g} s on one thread "
-      "without output\n"
-      "found by {} courses in {:.1f} s",
-      advice.setting.method, word_of(advice.setting.contact), advice.step, request.observable,
-      advice.error, advice.unit, request.error, advice.known_to, advice.seconds, advice.courses,
-      advice.pilot_seconds);
-}
-
-std::vector<std::string> settings_of(const Advice& advice, const Scene& scene) {
-  std::vector<std::string> settings{fmt::format("time.method={}", advice.setting.method),
-                                    fmt::format("time.step={}", advice.step)};
-  if (!scene.walls.empty()) {
-    settings.push_back(fmt::format("wall.contact={}", word_of(advice.setting.contact)));
-  }
-  return settings;
+  throw NoAdvice(NoAdvice::Why::not_reached,
+                 std::max(pilot.smallest_error(), margin * pilot.known_to()));
 }
 
 }  // namespace bounce

@@ -1,4 +1,4 @@
-#include "driver/accuracy/course_timing.hpp"
+#include "verify/accuracy/course_timing.hpp"
 
 #include <algorithm>
 #include <chrono>
