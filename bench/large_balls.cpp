@@ -17,8 +17,8 @@
 
 #include "bench/memory_rate.hpp"
 #include "bench/plain_sweep.hpp"
+#include "bench/run_rows.hpp"
 #include "driver/scene/memory_check.hpp"
-#include "driver/world/origin.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {
@@ -145,16 +145,6 @@ void add_rows() {
 }  // namespace bounce
 
 int main(int argc, char** argv) {
-  const bounce::Origin origin = bounce::find_origin();
-  benchmark::AddCustomContext("commit", origin.commit);
-  benchmark::AddCustomContext("compiler", origin.compiler);
-  benchmark::AddCustomContext("flags", origin.flags);
-  benchmark::AddCustomContext("cpu", origin.cpu);
   benchmark::AddCustomContext("turns", std::to_string(bounce::turns));
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  bounce::add_rows();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  return bounce::run_rows(argc, argv, bounce::add_rows);
 }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/run_rows.hpp"
 #include "bench/timing.hpp"
 #include "driver/scene/scene_file.hpp"
-#include "driver/world/origin.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {
@@ -27,17 +27,14 @@ using Change = std::function<void(Scene&)>;
 struct Side {
   std::string kernel;
   Change change;
-  int threads = 1;
+  std::string scene = "example-2";
 };
 
 std::unique_ptr<Stepper> stepper_of(const Side& side) {
-  Scene scene = SceneFile::find("example-2").scene();
+  Scene scene = SceneFile::find(side.scene).scene();
   side.change(scene);
   const Problem problem = make_problem(scene);
-  PlanRequest request;
-  request.kernel = side.kernel;
-  request.threads = side.threads;
-  return make_stepper(problem, request);
+  return make_stepper(problem, {side.kernel, "auto", 1});
 }
 
 // `with` has what `without` leaves out.
@@ -45,11 +42,12 @@ void add_pair(const std::string& name, const Side& with, const Side& without) {
   const auto run = [with, without](benchmark::State& state) {
     const auto a = stepper_of(with);
     const auto b = stepper_of(without);
+    const std::int64_t steps = with.scene == "annulus" ? 1 : steps_a_turn;
     std::vector<double> ratios;
     for (auto turn : state) {
       (void)turn;
-      const double with_it = seconds_of(*a, steps_a_turn);
-      const double without_it = seconds_of(*b, steps_a_turn);
+      const double with_it = seconds_of(*a, steps);
+      const double without_it = seconds_of(*b, steps);
       ratios.push_back(with_it / without_it);
       state.SetIterationTime(with_it + without_it);
     }
@@ -118,6 +116,8 @@ void add_pairs() {
   add_pair("variable exponents: odd (3, 7) for (3, 5), in csr", {"csr", law(3, 7)}, csr);
   add_pair("pow: (2.5, 4.5) for (3, 5), in csr", {"csr", law(2.5, 4.5)}, csr);
   add_pair("neighbour index, gathers, each bond twice: csr for ring", csr, ring);
+  add_pair("the same on an annulus of 72,000 particles: csr for annulus",
+           {"csr", as_it_is, "annulus"}, {"annulus", as_it_is, "annulus"});
   add_pair("the other half of the ball: ring for mirror", ring, {"mirror", as_it_is});
   const auto with = [](const Change& exponents) {
     return [exponents](Scene& scene) {
@@ -141,16 +141,4 @@ void add_pairs() {
 }  // namespace
 }  // namespace bounce
 
-int main(int argc, char** argv) {
-  const bounce::Origin origin = bounce::find_origin();
-  benchmark::AddCustomContext("commit", origin.commit);
-  benchmark::AddCustomContext("compiler", origin.compiler);
-  benchmark::AddCustomContext("flags", origin.flags);
-  benchmark::AddCustomContext("cpu", origin.cpu);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  bounce::add_pairs();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-}
+int main(int argc, char** argv) { return bounce::run_rows(argc, argv, bounce::add_pairs); }

@@ -60,11 +60,9 @@ Preparation prepare_annulus(const Problem& problem, const KernelRequest& request
                    std::to_string(columns) + " columns of vectors"};
   }
   plan.multiplications = annulus_multiplications(problem, shape->rings, columns);
-  plan.reasons.push_back("the neighbour list is " + std::to_string(shape->rings) +
-                         " rings with constant offsets: each bond once, no index, " +
-                         std::to_string(plan.lanes) + " sectors side by side");
-  plan.left_out.emplace_back("neighbour index and gathers");
-  plan.left_out.emplace_back("the second computation of each bond");
+  describe_rings(
+      "the neighbour list is " + std::to_string(shape->rings) + " rings with constant offsets",
+      plan);
   plan.make_stepper = [&problem, shape = *shape,
                        make = BOUNCE_COMPILED_FOR(plan.vector, make_annulus),
                        threads = plan.threads] { return make(problem, shape, threads); };

@@ -59,12 +59,8 @@ Preparation prepare_mirror(const Problem& problem, const KernelRequest& request,
                               std::to_string(plan.threads) + " threads: a thread needs three");
   }
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
-  plan.reasons.emplace_back(
-      "the ball, its walls and gravity are left-right symmetric: half of it "
-      "is stepped, each bond once, no index, " +
-      std::to_string(plan.lanes) + " sectors side by side");
-  plan.left_out.emplace_back("neighbour index and gathers");
-  plan.left_out.emplace_back("the second computation of each bond");
+  describe_rings("the ball, its walls and gravity are left-right symmetric: half of it is stepped",
+                 plan);
   plan.left_out.emplace_back("the other half of the ball");
   plan.make_stepper = [&problem, shape, sum = axis.sum,
                        make = BOUNCE_COMPILED_FOR(plan.vector, make_mirror),

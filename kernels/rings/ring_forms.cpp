@@ -64,6 +64,13 @@ RingForm find_ring_form(const Problem& problem) {
   return {*shape, refuses_law(law_form(problem.law), shape->rings)};
 }
 
+void describe_rings(const std::string& why, Plan& plan) {
+  plan.reasons.push_back(why + ": each bond once, no index, " + std::to_string(plan.lanes) +
+                         " sectors side by side");
+  plan.left_out.emplace_back("neighbour index and gathers");
+  plan.left_out.emplace_back("the second computation of each bond");
+}
+
 int team_size(std::int64_t columns) {
   constexpr std::int64_t columns_that_pay = 7;  // some 0.15 us
   constexpr std::int64_t small = 256;           // columns: 100 kB with 4 lanes and three rings

@@ -28,6 +28,9 @@ bool has_ring_law(LawForm form);
 std::string deal_columns(std::int64_t columns, std::int64_t fewest, bool even,
                          const KernelRequest& request, Plan& plan);
 
+/// Says in a plan how rings are stepped: `why` this kernel can do it, and what it leaves out.
+void describe_rings(const std::string& why, Plan& plan);
+
 /// As many threads as pay: each has at least so many columns of vectors that a hand-shake is short
 /// beside them, and there are no more than two for a ball that one core's cache holds.
 int team_size(std::int64_t columns);
