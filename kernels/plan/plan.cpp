@@ -33,7 +33,7 @@ class Choice {
   [[nodiscard]] Preparation prepare(const KernelEntry& entry, const Problem& problem,
                                     const KernelRequest& request) const {
     if (!entry.has_contacts_of(problem.walls))
-      return Refusal{"the contact of its walls is another one"};
+      return Refusal{"it does not have the rule of contact of these walls"};
     const auto inside = [this](const Problem& other, const KernelRequest& asked) {
       return pick(other, asked, false);
     };

@@ -324,6 +324,23 @@ TEST(Located, RefusesWhatItCannotRun) {
                PlanError);
 }
 
+TEST(Located, WrapsTheKernelThatIsForcedAndNoOther) {
+  const Problem problem = make_problem(impact_scene(0.0, 0.0, "leapfrog", coarse));
+  const Plan plan = make_plan(problem, {"csr"});
+  EXPECT_EQ(plan.kernel, "located");
+  EXPECT_EQ(plan.inside, "csr");
+  EXPECT_EQ(kernel_name(plan), "located (csr)");
+  EXPECT_TRUE(plan.cuts_steps);
+  EXPECT_EQ(make_plan(problem, {"located"}).inside, make_plan(problem).inside);
+  Problem other = problem;
+  other.walls.front().contact = Contact::resolved;
+  EXPECT_EQ(make_plan(other).inside, "");
+  EXPECT_FALSE(make_plan(other).cuts_steps);
+  EXPECT_THROW(make_plan(other, {"located"}), PlanError);
+  other.walls.clear();
+  EXPECT_THROW(make_plan(other, {"located"}), PlanError);
+}
+
 TEST(Located, IsForAllWallsOrNone) {
   Scene scene = impact_scene(0.0, 0.0, "leapfrog", coarse);
   scene.walls.push_back(scene.walls.front());
