@@ -148,11 +148,11 @@ HWY_INLINE bool above(D d, const Wall& floor, hn::Vec<D> heights) {
 template <size_t width, class D, class PlaceOf>
 HWY_INLINE bool in_front(D d, const Wall& wall, size_t count, const PlaceOf& place) {
   if (is_floor(wall)) {
-    const auto height = [=](size_t k, size_t j) HWY_ATTR { return hn::Load(d, place(k, j).y); };
+    const auto height = [&](size_t k, size_t j) HWY_ATTR { return hn::Load(d, place(k, j).y); };
     return above(d, wall, least<width>(d, count, height));
   }
   const WallVectors<hn::Vec<D>> w(d, wall);
-  const auto distance = [=](size_t k, size_t j) HWY_ATTR {
+  const auto distance = [&](size_t k, size_t j) HWY_ATTR {
     const Place at = place(k, j);
     return distance_from(w, hn::Load(d, at.x), hn::Load(d, at.y));
   };
