@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "driver/stability/edge_row.hpp"
-#include "verify/stability/bounce_course.hpp"
+#include "verify/stability/bounce_run.hpp"
 
 namespace bounce {
 namespace {

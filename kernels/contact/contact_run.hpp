@@ -1,4 +1,4 @@
-// What happens between particles and walls where contacts are located (contact_course.hpp).
+// What happens between particles and walls where contacts are located (contact_solver.hpp).
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "kernels/contact/contact_course.hpp"
+#include "kernels/contact/contact_solver.hpp"
 #include "kernels/contact/method_flow.hpp"
 #include "kernels/stepping/staged_stepper.hpp"
 
@@ -120,7 +120,7 @@ class LocatedStepper final : public Stepper {
   std::int64_t fewest_steps_;
   std::unique_ptr<Stepper> flight_;
   MethodFlow flow_;
-  ContactCourse<MethodFlow> course_;
+  ContactSolver<MethodFlow> course_;
   State state_;                    // unless it flies
   std::vector<double> pull_;       // accelerations at the last look
   bool flies_ = false;             // the state is flight_'s

@@ -13,7 +13,7 @@
 //     afterwards, as by the resolved rule, leaves an error of first order, and a ball multiplies
 //     it by 50 000 up to the end (bounce reference).
 //  2. So a ball that is clear of the walls runs on the kernel inside, and one that is near runs
-//     step by step in contact_course.hpp, in plain loops.
+//     step by step in contact_solver.hpp, in plain loops.
 //  3. Which of the two follows from the state alone: for how many steps it is far enough away is
 //     decided when the last decision has run out, and a snapshot carries what is left of it. So a
 //     run has the same bits for any threads, vectors and restarts.

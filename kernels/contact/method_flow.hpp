@@ -1,5 +1,5 @@
 // One step of a method (method.hpp), of any length, in double precision, particle by particle: the
-// Flow (contact_course.hpp) of steps with contacts.
+// Flow (contact_solver.hpp) of steps with contacts.
 //
 // A step is made from its start to its end, no stage is held over: a method that begins with the
 // kick it ends with has its force from the last step, as long as no particle has been moved.
@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/contact/bond_forces.hpp"
-#include "kernels/contact/contact_course.hpp"
+#include "kernels/contact/contact_solver.hpp"
 #include "kernels/model/method.hpp"
+#include "kernels/model/problem.hpp"
 
 namespace bounce {
 

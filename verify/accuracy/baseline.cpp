@@ -134,7 +134,7 @@ decltype(Baseline::solve) by_gsl(const gsl_odeiv2_step_type* type) {
   return [type](const Problem& problem, double tolerance, std::span<const double> times,
                 const ReferenceVisitor& visit, const std::function<void()>& tick) {
     GslFlow flow(problem, type, tolerance, tick);
-    const ReferenceRun run = ContactCourse<GslFlow>(problem, flow).run(times, visit);
+    const ReferenceRun run = ContactSolver<GslFlow>(problem, flow).run(times, visit);
     return BaselineWork{run.steps, run.evaluations};
   };
 }

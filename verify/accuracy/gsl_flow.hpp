@@ -1,4 +1,4 @@
-// A Flow (contact_course.hpp) over one of GSL's odeiv2 steppers, in double precision, steps as
+// A Flow (contact_solver.hpp) over one of GSL's odeiv2 steppers, in double precision, steps as
 // large as their error allows.
 //
 //  1. odeiv2 offers four levels; this uses the lower two, a single step and the control that judges
@@ -19,7 +19,7 @@
 #include <memory>
 #include <vector>
 
-#include "kernels/contact/contact_course.hpp"
+#include "kernels/contact/contact_solver.hpp"
 
 namespace bounce {
 

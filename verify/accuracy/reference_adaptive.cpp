@@ -1,5 +1,5 @@
 // Solution one: GSL's rk8pd in double precision, steps as large as their error allows.
-#include "kernels/contact/contact_course.hpp"
+#include "kernels/contact/contact_solver.hpp"
 #include "verify/accuracy/gsl_flow.hpp"
 #include "verify/accuracy/reference_solution.hpp"
 
@@ -14,7 +14,7 @@ ReferenceRun solve_adaptive(const Problem& problem, std::span<const double> time
                                 ": allowed is 1e-15 to 0.01");
   }
   GslFlow flow(problem, gsl_odeiv2_step_rk8pd, settings.tolerance);
-  return ContactCourse<GslFlow>(problem, flow).run(times, visit);
+  return ContactSolver<GslFlow>(problem, flow).run(times, visit);
 }
 
 }  // namespace bounce

@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "kernels/contact/contact_course.hpp"
+#include "kernels/contact/contact_solver.hpp"
 #include "verify/accuracy/reference_solution.hpp"
 
 namespace bounce {
@@ -121,7 +121,7 @@ ReferenceRun solve_fixed(const Problem& problem, std::span<const double> times,
     throw std::invalid_argument("step " + std::to_string(step) + " s: allowed is above 0");
   }
   FixedFlow flow(problem, step);
-  return ContactCourse<FixedFlow>(problem, flow).run(times, visit);
+  return ContactSolver<FixedFlow>(problem, flow).run(times, visit);
 }
 
 }  // namespace bounce

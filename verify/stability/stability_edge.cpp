@@ -6,12 +6,12 @@
 #include <numbers>
 #include <utility>
 
-#include "verify/stability/bounce_course.hpp"
+#include "verify/stability/bounce_run.hpp"
 #include "verify/stability/bracket.hpp"
 #include "verify/stability/energy_judge.hpp"
+#include "verify/stability/vibration.hpp"
 #include "verify/vibrations/spectrum.hpp"
 #include "verify/vibrations/stability_limit.hpp"
-#include "verify/stability/vibration.hpp"
 
 namespace bounce {
 namespace {
@@ -56,7 +56,7 @@ class Measurement {
   [[nodiscard]] bool to_be_followed() const {
     return !refused() && case_->passage == Passage::bounce && !followed_ && follows_ < most_follows;
   }
-  [[nodiscard]] Problem course_problem() const {
+  [[nodiscard]] Problem problem_to_follow() const {
     return at_part(first_part * std::pow(0.25, follows_));
   }
   // About once in a period of the fastest vibration; for all cases of a method the same.
@@ -68,16 +68,16 @@ class Measurement {
     // omega^2 goes with E.
     return omega_ * std::sqrt(problem.classes[0].attraction / start_.classes[0].attraction);
   }
-  void take(const BounceCourse& course, const Problem& problem) {
+  void take(const BounceRun& bounce, const Problem& problem) {
     ++follows_;
-    if (!course.stable || !course.margin) return;
+    if (!bounce.stable || !bounce.margin) return;
     followed_ = true;
-    course_end_ = course.end;
-    course_omega_ = omega_of(problem);
-    edge_.left = course.left;
-    edge_.ratio = course.margin->ratio;
+    followed_end_ = bounce.end;
+    followed_omega_ = omega_of(problem);
+    edge_.left = bounce.left;
+    edge_.ratio = bounce.margin->ratio;
     // Part of the stable step used -> the step, or E, that would have used all of it.
-    const double part = course.margin->part;
+    const double part = bounce.margin->part;
     edge_.strict = case_->sought == Sought::step ? problem.step / part
                                                  : elasticity_of(problem) / (part * part);
     edge_.predicted = edge_.strict * edge_.flight / strict_flight_;
@@ -93,8 +93,8 @@ class Measurement {
     double time = case_->criterion.periods * period;
     if (case_->passage == Passage::bounce) {
       // Contact takes a number of periods that depends little on E; the way down does not.
-      const double stretch = std::max(1.0, course_omega_ / omega_of(problem));
-      time = followed_ ? longer * stretch * course_end_ : longest_bounce * period;
+      const double stretch = std::max(1.0, followed_omega_ / omega_of(problem));
+      time = followed_ ? longer * stretch * followed_end_ : longest_bounce * period;
     }
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(time / problem.step)));
   }
@@ -110,8 +110,8 @@ class Measurement {
     return done() && !refused() && case_->passage == Passage::bounce && bracket_->stable() > 0.0;
   }
   [[nodiscard]] Problem edge_problem() const { return at_value(bracket_->stable()); }
-  void take_edge(const BounceCourse& course) {
-    if (course.margin) edge_.used = course.margin->part;
+  void take_edge(const BounceRun& bounce) {
+    if (bounce.margin) edge_.used = bounce.margin->part;
   }
   [[nodiscard]] const EdgeCase& what() const { return *case_; }
 
@@ -257,8 +257,8 @@ class Measurement {
   double omega_ = 0.0;  // 1/s, at the start with the scene's E
   bool followed_ = false;
   int follows_ = 0;
-  double course_end_ = 0.0;    // s
-  double course_omega_ = 0.0;  // with the E that was followed
+  double followed_end_ = 0.0;    // s
+  double followed_omega_ = 0.0;  // with the E that was followed
   std::optional<Bracket> bracket_;
   Edge edge_;
 };
@@ -280,8 +280,8 @@ struct Following {
     growth.push_back(which.what().criterion.growth);
     problems.push_back(std::move(problem));
   }
-  [[nodiscard]] std::vector<BounceCourse> run(std::int64_t look_every,
-                                              const TrialOptions& options) const {
+  [[nodiscard]] std::vector<BounceRun> run(std::int64_t look_every,
+                                           const TrialOptions& options) const {
     return follow_bounces(problems, steps, look_every, growth, options);
   }
 };
@@ -291,12 +291,12 @@ void follow(Measurements& all, const TrialOptions& options) {
   for (;;) {
     Following now;
     for (Measurement& each : all) {
-      if (each.to_be_followed()) now.add(each, each.course_problem());
+      if (each.to_be_followed()) now.add(each, each.problem_to_follow());
     }
     if (now.cases.empty() || stopped(options)) return;
-    const auto courses = now.run(now.cases.front()->look_every(), options);
-    for (std::size_t i = 0; i < courses.size(); ++i)
-      now.cases[i]->take(courses[i], now.problems[i]);
+    const auto bounces = now.run(now.cases.front()->look_every(), options);
+    for (std::size_t i = 0; i < bounces.size(); ++i)
+      now.cases[i]->take(bounces[i], now.problems[i]);
   }
 }
 
@@ -307,8 +307,8 @@ void follow_edges(Measurements& all, const TrialOptions& options) {
     if (each.has_edge_to_follow()) now.add(each, each.edge_problem());
   }
   if (now.cases.empty() || stopped(options)) return;
-  const auto courses = now.run(look_at_edge, options);
-  for (std::size_t i = 0; i < courses.size(); ++i) now.cases[i]->take_edge(courses[i]);
+  const auto bounces = now.run(look_at_edge, options);
+  for (std::size_t i = 0; i < bounces.size(); ++i) now.cases[i]->take_edge(bounces[i]);
 }
 
 // One run of each case whose passage this is and whose bracket is open. False if there was none.

@@ -13,7 +13,7 @@
 #include "kernels/model/problem.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/accuracy/reference_solution.hpp"
-#include "verify/stability/bounce_course.hpp"
+#include "verify/stability/bounce_run.hpp"
 #include "verify/tests/paper_scenes.hpp"
 #include "verify/watch/ledger.hpp"
 #include "verify/watch/monitor.hpp"

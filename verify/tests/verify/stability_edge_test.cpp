@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kernels/model/method.hpp"
-#include "verify/stability/bounce_course.hpp"
+#include "verify/stability/bounce_run.hpp"
 #include "verify/stability/bracket.hpp"
 #include "verify/stability/energy_judge.hpp"
 #include "verify/vibrations/spectrum.hpp"
@@ -325,7 +325,7 @@ TEST(StabilityEdge, StopsWhenAsked) {
   EXPECT_FALSE(measure_edges(std::vector<EdgeCase>{flight_case(1000.0)}, options).has_value());
 }
 
-TEST(BounceCourse, StartsJustAboveTheWallAtTheSpeedOfTheFall) {
+TEST(BounceRun, StartsJustAboveTheWallAtTheSpeedOfTheFall) {
   Scene scene = paper_scene(16000.0);
   Problem problem = make_problem(scene);
   const double fall = std::sqrt(2.0 * 0.098 * 3.0);

@@ -1,4 +1,4 @@
-#include "verify/stability/bounce_course.hpp"
+#include "verify/stability/bounce_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,10 +37,10 @@ const Wall& nearest_wall(const Problem& problem) {
 
 double along(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 
-// Sees the looks of one bounce, in their order.
-class Course {
+// Takes the states of one bounce in their order, one each `look_every` steps.
+class Follower {
  public:
-  Course(const Problem& problem, double growth, std::int64_t look_every)
+  Follower(const Problem& problem, double growth, std::int64_t look_every)
       : problem_(&problem),
         normal_(nearest_wall(problem).normal),
         look_every_(look_every),
@@ -65,7 +65,7 @@ class Course {
     return !left_;
   }
   // `good`: the trial's own verdict; a state that is not finite never comes to add().
-  [[nodiscard]] BounceCourse result(bool good) const {
+  [[nodiscard]] BounceRun result(bool good) const {
     const bool stable = stable_ && (good || left_);
     return {stable, left_, end_, stable ? gauge_.result() : std::nullopt};
   }
@@ -107,21 +107,20 @@ State just_above_wall(const Problem& problem, double speed) {
   return state;
 }
 
-std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
-                                         std::span<const std::int64_t> steps,
-                                         std::int64_t look_every, std::span<const double> growth,
-                                         const TrialOptions& options) {
-  std::vector<Course> courses;
+std::vector<BounceRun> follow_bounces(std::span<const Problem> problems,
+                                      std::span<const std::int64_t> steps, std::int64_t look_every,
+                                      std::span<const double> growth, const TrialOptions& options) {
+  std::vector<Follower> followers;
   for (std::size_t i = 0; i < problems.size(); ++i) {
-    courses.emplace_back(problems[i], growth[i], look_every);
+    followers.emplace_back(problems[i], growth[i], look_every);
   }
-  // What is done is retired; the courses know which of them were bad.
+  // A bounce that is over ends its trial, too; the follower knows whether it was stable.
   const std::vector<bool> good = run_trials(
       problems, steps, look_every,
-      [&](std::size_t i, const State& state) { return courses[i].add(state); }, options);
-  std::vector<BounceCourse> results(problems.size());
+      [&](std::size_t i, const State& state) { return followers[i].add(state); }, options);
+  std::vector<BounceRun> results(problems.size());
   parallel_for(problems.size(), options.threads,
-               [&](std::size_t i) { results[i] = courses[i].result(good[i]); });
+               [&](std::size_t i) { results[i] = followers[i].result(good[i]); });
   return results;
 }
 

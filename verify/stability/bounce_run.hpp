@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "kernels/model/problem.hpp"
-#include "verify/watch/margin.hpp"
 #include "verify/stability/trials.hpp"
+#include "verify/watch/margin.hpp"
 
 namespace bounce {
 
@@ -24,7 +24,7 @@ State just_above_wall(const Problem& problem, double speed);
 inline constexpr double start_gap = 1e-3;  ///< cm; ten times what counts as contact
 
 /// What was seen of a bounce.
-struct BounceCourse {
+struct BounceRun {
   bool stable = false;  ///< it did not become unstable at this step
   bool left = false;    ///< the ball came off the wall and rose for a tenth of its time there
   double end = 0.0;     ///< s after the start: when that was, or where the watching ended
@@ -34,9 +34,8 @@ struct BounceCourse {
 /// Follows the bounces of problems that differ in numbers alone (see run_trials), each for `steps`
 /// at most. Each is looked at every `look_every` steps; a look costs as much as some 50 steps.
 /// `growth`: what counts as unstable (EnergyJudge).
-std::vector<BounceCourse> follow_bounces(std::span<const Problem> problems,
-                                         std::span<const std::int64_t> steps,
-                                         std::int64_t look_every, std::span<const double> growth,
-                                         const TrialOptions& options);
+std::vector<BounceRun> follow_bounces(std::span<const Problem> problems,
+                                      std::span<const std::int64_t> steps, std::int64_t look_every,
+                                      std::span<const double> growth, const TrialOptions& options);
 
 }  // namespace bounce

@@ -32,9 +32,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/contact/bond_forces.hpp"
 #include "kernels/contact/contact_run.hpp"
+#include "kernels/model/problem.hpp"
 
 namespace bounce {
 
@@ -86,11 +86,11 @@ class Resting {
 /// `left`, returns its length, above 0; retake(h): the same step, shorter; end(): the state (4 n
 /// numbers) at its end; start(); accept(): the end becomes the start; evaluations().
 template <class Flow>
-class ContactCourse {
+class ContactSolver {
  public:
   using Real = typename Flow::Real;
 
-  ContactCourse(const Problem& problem, Flow& flow)
+  ContactSolver(const Problem& problem, Flow& flow)
       : problem_(problem),
         flow_(flow),
         n_(problem.initial.size()),
