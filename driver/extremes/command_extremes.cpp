@@ -48,6 +48,7 @@ std::vector<ExtremeRow> all_rows(Options& options) {
 std::vector<ExtremeEntry> chosen(Options options) {
   std::vector<ExtremeRow> rows = all_rows(options);
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const ExtremeRow& row : rows) names.push_back(row.name);
   for (const std::string& name : options.only) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
@@ -107,6 +108,7 @@ double steps_of(const ExtremeRow& row) { return row.scene.time.end / row.scene.t
 // Rows side by side, the longest first; each is told of as it ends.
 void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& folder) {
   std::vector<ExtremeEntry*> order;
+  order.reserve(entries.size());
   for (ExtremeEntry& entry : entries) order.push_back(&entry);
   std::stable_sort(order.begin(), order.end(), [](const ExtremeEntry* a, const ExtremeEntry* b) {
     return steps_of(a->row) > steps_of(b->row);
