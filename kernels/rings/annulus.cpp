@@ -1,4 +1,4 @@
-// Instantiates the annulus kernel for each vector target and picks the one a plan names.
+// The annulus kernel compiled for each vector target, and which problems it steps, and how.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/rings/annulus.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h

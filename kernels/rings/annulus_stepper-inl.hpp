@@ -1,10 +1,10 @@
-// annulus: as many concentric rings as there are, a number known at run time: for balls of more rings than
-// `ring` is compiled for.
+// annulus: concentric rings, as many as there are, a number known only at run time: for balls of
+// more rings than `ring` is compiled for.
 //
-// Why it is built so (ring_columns-inl.hpp says why lanes are sectors and what that looks like)
-//  1. A column is walked ring by ring outwards. Ring r brings three bonds, all that lead on from
-//     it: along the ring to the next column, and the two to ring r + 1, one of which leads to the
-//     next column, too:
+// Why it is built so (ring_columns-inl.hpp says why a lane is a sector of the ball, and draws it)
+//  1. A column, the particles of all rings at one angle, is swept ring by ring outwards. Ring r
+//     brings three bonds, all that lead on from it: along the ring to the next column, and the two
+//     to ring r + 1, one of which leads to the next column, too:
 //
 //         r even:   r --- r'    r --- r + 1    r' --- r + 1      r' = ring r of the next column
 //         r odd:    r --- r'    r --- r + 1    r  --- (r + 1)'
@@ -12,21 +12,23 @@
 //     They share one division. Two parities, two bodies: no branch within.
 //  2. What is carried from ring to ring fits in registers: positions of ring r + 1 here and in the
 //     next column, and its two sums as far as they are known. What is carried from column to column
-//     is an array, the sums of the bonds that lead there: two vectors a ring.
+//     is an array, the sums of the bonds that lead there (the left sums of the next column): two
+//     vectors a ring.
 //  3. The numbers of a particle stand together, x y vx vy, a vector each: a column is one stream,
 //     in place; when ring r's bonds are summed nobody needs its old place any more.
-//  4. A tile a thread. It keeps copies of the columns beside it, takes the left sums of its first
-//     column itself, and tells its own outer columns at the end of the stage, for even and odd
-//     stages apart: so threads meet once a stage.
+//  4. A thread has a tile, some neighbouring columns. It keeps copies of the columns beside it,
+//     takes the left sums of its first column itself, and sends its own outer columns at the end of
+//     the stage, for even and odd stages apart: so threads meet once a stage.
 //  5. One answer: order of the sums and grouping of the divisions depend on ring and parity alone.
 //     (They are others than `ring`'s, so the two differ by rounding.)
 //
 // Operations a ring and vector, law (3, 5): 6 for R^2, 6 to share the division, 9 for F/R, 12 for
-// the sums, 2 drifts: 35 multiplications and multiply-adds, 10 subtractions and additions.
+// the sums, 2 drifts: 35 multiplications and multiply-adds, 8 subtractions and additions.
 //
-// Not taken: several stages a visit, as tiles of `ring` do. A column of 100 rings is 13 kB with 4
-// lanes: a front of 16 stages would not stay in L1, and an annulus of 72 000 particles (2.3 MB)
-// stays in the last cache anyway. A ball beyond that cache is swept through memory once a stage.
+// Not taken: several stages while a column is in cache, as tiles of `ring` do. A column of 100
+// rings is 13 kB with 4 lanes: columns for 16 stages would not stay in L1, and an annulus of 72 000
+// particles (2.3 MB) stays in the last-level cache anyway. A ball beyond that cache is swept
+// through memory once a stage.
 #if defined(BOUNCE_ANNULUS_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_ANNULUS_STEPPER_INL_HPP
 #undef BOUNCE_ANNULUS_STEPPER_INL_HPP
@@ -82,7 +84,7 @@ class AnnulusStepper final : public StagedStepper {
     std::vector<Constants> constants;
     for (const StageConstants& stage : stages) constants.push_back(make_constants(stage));
     const std::int64_t passes = steps * static_cast<std::int64_t>(constants.size());
-    for (Tile& tile : tiles_) tell(tile, 0);
+    for (Tile& tile : tiles_) send(tile, 0);
     std::optional<SpinBarrier> barrier;
 #pragma omp parallel num_threads(static_cast <int>(tiles_.size()))
     {
@@ -95,7 +97,7 @@ class AnnulusStepper final : public StagedStepper {
         const Constants& c = constants[static_cast<size_t>(n) % constants.size()];
         for (size_t t = me; t < tiles_.size(); t += team) {
           pass(c, t, static_cast<size_t>(n & 1));
-          tell(tiles_[t], static_cast<size_t>((n + 1) & 1));
+          send(tiles_[t], static_cast<size_t>((n + 1) & 1));
         }
         barrier->meet(n + 1);
       }
@@ -120,8 +122,8 @@ class AnnulusStepper final : public StagedStepper {
     double gx, gy, drift;
   };
 
-  // Columns begin .. end - 1; copies of the columns beside them; the sums that lead to the next
-  // column; what the neighbours are told, for even and odd stages.
+  // Columns begin .. end - 1; copies of the columns beside them; the left sums of the next column;
+  // what is sent to the neighbours, for even and odd stages.
   struct Tile {
     size_t begin, end;
     AlignedArray before, behind, left;
@@ -155,8 +157,8 @@ class AnnulusStepper final : public StagedStepper {
     return c;
   }
 
-  // Tells the neighbours where this tile's outer columns stand.
-  void tell(Tile& tile, size_t parity) {
+  // Sends the neighbours this tile's outer columns.
+  void send(Tile& tile, size_t parity) {
     std::copy_n(column(tile.begin), rings_ * step, tile.first[parity].data());
     std::copy_n(column(tile.end - 1), rings_ * step, tile.last[parity].data());
   }
@@ -176,19 +178,19 @@ class AnnulusStepper final : public StagedStepper {
     Tile& tile = tiles_[t];
     take(tiles_[(t + tiles - 1) % tiles].last[parity], t == 0 ? -1 : 0, tile.before);
     take(tiles_[(t + 1) % tiles].first[parity], t + 1 == tiles ? 1 : 0, tile.behind);
-    walk_column<false>(c, tile.before.data(), column(tile.begin), tile.left.data());
+    sweep_column<false>(c, tile.before.data(), column(tile.begin), tile.left.data());
     for (size_t k = tile.begin; k < tile.end; ++k) {
       double* here = column(k);
       const double* next = k + 1 < tile.end ? column(k + 1) : tile.behind.data();
-      walk_column<true>(c, here, next, tile.left.data());
+      sweep_column<true>(c, here, next, tile.left.data());
       if (HWY_UNLIKELY(!in_front(here))) mirror_column(c, here);
     }
   }
 
   // What is carried from ring to ring: its places here and in the next column, the sum from its
-  // velocity on and the sum that leads to the next column.
+  // velocity on, and the left sum of its particle in the next column.
   struct Carried {
-    V x, y, next_x, next_y, rest_x, rest_y, on_x, on_y;
+    V x, y, next_x, next_y, sum_x, sum_y, on_next_x, on_next_y;
   };
 
   struct Bond {
@@ -197,20 +199,20 @@ class AnnulusStepper final : public StagedStepper {
         : dx(hn::Sub(x, to_x)), dy(hn::Sub(y, to_y)), r2(hn::MulAdd(dy, dy, hn::Mul(dx, dx))) {}
   };
 
-  // All bonds that lead on from the particles of a column. `left` comes with the sums that lead
-  // here and goes with those that lead to the next column. With `moves` the column is moved;
-  // without, it is another tile's and only what leads on is wanted.
+  // All bonds that lead on from the particles of a column. `left` comes with its left sums and goes
+  // with those of the next column. With `moves` the column is moved; without, it is another tile's
+  // and only the left sums of the next column are wanted.
   template <bool moves>
-  HWY_INLINE void walk_column(const Constants& c, double* here, const double* next,
-                              double* left) const {
+  HWY_INLINE void sweep_column(const Constants& c, double* here, const double* next,
+                               double* left) const {
     Carried now;
     start(c, here, next, now);
     size_t r = 0;
     for (; r + 2 < rings_; r += 2) {
-      walk_ring<0, moves>(c, r, here, next, left, now);
-      walk_ring<1, moves>(c, r + 1, here, next, left, now);
+      sweep_ring<0, moves>(c, r, here, next, left, now);
+      sweep_ring<1, moves>(c, r + 1, here, next, left, now);
     }
-    if (r + 1 < rings_) walk_ring<0, moves>(c, r++, here, next, left, now);
+    if (r + 1 < rings_) sweep_ring<0, moves>(c, r++, here, next, left, now);
     const Bond along(now.x, now.y, now.next_x, now.next_y);
     V u;
     reciprocals_of<1>(&along.r2, &u);
@@ -223,15 +225,15 @@ class AnnulusStepper final : public StagedStepper {
     to.y = hn::Load(d, here + L);
     to.next_x = hn::Load(d, next);
     to.next_y = hn::Load(d, next + L);
-    to.rest_x = hn::Load(d, here + 2 * L);
-    to.rest_y = hn::Load(d, here + 3 * L);
+    to.sum_x = hn::Load(d, here + 2 * L);
+    to.sum_y = hn::Load(d, here + 3 * L);
   }
 
   static HWY_INLINE void start(const Constants& c, const double* here, const double* next,
                                Carried& now) {
     load_ring(here, next, now);
-    now.on_x = hn::Set(d, c.gx);
-    now.on_y = hn::Set(d, c.gy);
+    now.on_next_x = hn::Set(d, c.gx);
+    now.on_next_y = hn::Set(d, c.gy);
   }
 
   HWY_INLINE V force(const Constants& c, size_t r, int bond, V u) const {
@@ -242,20 +244,20 @@ class AnnulusStepper final : public StagedStepper {
   HWY_INLINE void add_along(const Constants& c, size_t r, const Bond& bond, V u,
                             Carried& now) const {
     const V f = force(c, r, 0, u);
-    now.rest_x = hn::MulAdd(f, bond.dx, now.rest_x);
-    now.rest_y = hn::MulAdd(f, bond.dy, now.rest_y);
-    now.on_x = hn::NegMulAdd(f, bond.dx, now.on_x);
-    now.on_y = hn::NegMulAdd(f, bond.dy, now.on_y);
+    now.sum_x = hn::MulAdd(f, bond.dx, now.sum_x);
+    now.sum_y = hn::MulAdd(f, bond.dy, now.sum_y);
+    now.on_next_x = hn::NegMulAdd(f, bond.dx, now.on_next_x);
+    now.on_next_y = hn::NegMulAdd(f, bond.dy, now.on_next_y);
   }
 
   // Ring r, of this parity, which is not the outermost.
   template <int parity, bool moves>
-  HWY_INLINE void walk_ring(const Constants& c, size_t r, double* here, const double* next,
-                            double* left, Carried& now) const {
+  HWY_INLINE void sweep_ring(const Constants& c, size_t r, double* here, const double* next,
+                             double* left, Carried& now) const {
     Carried outer;
     load_ring(here + (r + 1) * step, next + (r + 1) * step, outer);
-    outer.on_x = hn::Set(d, c.gx);
-    outer.on_y = hn::Set(d, c.gy);
+    outer.on_next_x = hn::Set(d, c.gx);
+    outer.on_next_y = hn::Set(d, c.gy);
     const Bond along(now.x, now.y, now.next_x, now.next_y);
     const Bond same(now.x, now.y, outer.x, outer.y);
     const Bond diagonal = parity == 1 ? Bond(now.x, now.y, outer.next_x, outer.next_y)
@@ -265,22 +267,22 @@ class AnnulusStepper final : public StagedStepper {
     reciprocals_of<3>(r2, u);
     add_along(c, r, along, u[0], now);
     const V f_same = force(c, r, 1, u[1]);
-    now.rest_x = hn::MulAdd(f_same, same.dx, now.rest_x);
-    now.rest_y = hn::MulAdd(f_same, same.dy, now.rest_y);
-    outer.rest_x = hn::NegMulAdd(f_same, same.dx, outer.rest_x);
-    outer.rest_y = hn::NegMulAdd(f_same, same.dy, outer.rest_y);
+    now.sum_x = hn::MulAdd(f_same, same.dx, now.sum_x);
+    now.sum_y = hn::MulAdd(f_same, same.dy, now.sum_y);
+    outer.sum_x = hn::NegMulAdd(f_same, same.dx, outer.sum_x);
+    outer.sum_y = hn::NegMulAdd(f_same, same.dy, outer.sum_y);
     const V f = force(c, r, 2, u[2]);
     Carried& from = parity == 1 ? now : outer;
     Carried& to = parity == 1 ? outer : now;
-    from.rest_x = hn::MulAdd(f, diagonal.dx, from.rest_x);
-    from.rest_y = hn::MulAdd(f, diagonal.dy, from.rest_y);
-    to.on_x = hn::NegMulAdd(f, diagonal.dx, to.on_x);
-    to.on_y = hn::NegMulAdd(f, diagonal.dy, to.on_y);
+    from.sum_x = hn::MulAdd(f, diagonal.dx, from.sum_x);
+    from.sum_y = hn::MulAdd(f, diagonal.dy, from.sum_y);
+    to.on_next_x = hn::NegMulAdd(f, diagonal.dx, to.on_next_x);
+    to.on_next_y = hn::NegMulAdd(f, diagonal.dy, to.on_next_y);
     finish<moves>(c, r, here, left, now);
     now = outer;
   }
 
-  // Moves ring r, and leaves its sums for the next column.
+  // Moves ring r, and leaves the left sum of the next column.
   template <bool moves>
   HWY_INLINE void finish(const Constants& c, size_t r, double* here, double* left,
                          const Carried& now) const {
@@ -288,8 +290,8 @@ class AnnulusStepper final : public StagedStepper {
     if constexpr (moves) {
       double* at = here + r * step;
       const V drift = hn::Set(d, c.drift);
-      const V vx = hn::Add(now.rest_x, hn::Load(d, from_left));
-      const V vy = hn::Add(now.rest_y, hn::Load(d, from_left + L));
+      const V vx = hn::Add(now.sum_x, hn::Load(d, from_left));
+      const V vy = hn::Add(now.sum_y, hn::Load(d, from_left + L));
       const V x = hn::MulAdd(drift, vx, now.x);
       const V y = hn::MulAdd(drift, vy, now.y);
       hn::Store(x, d, at);
@@ -297,8 +299,8 @@ class AnnulusStepper final : public StagedStepper {
       hn::Store(vx, d, at + 2 * L);
       hn::Store(vy, d, at + 3 * L);
     }
-    hn::Store(now.on_x, d, from_left);
-    hn::Store(now.on_y, d, from_left + L);
+    hn::Store(now.on_next_x, d, from_left);
+    hn::Store(now.on_next_y, d, from_left + L);
   }
 
   // Whether all particles of a column are in front of all walls.

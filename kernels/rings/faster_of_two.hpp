@@ -7,7 +7,7 @@
 namespace bounce {
 
 /// Two threads on one ball are faster than one while both have a core and the cores are near each
-/// other; both may change from one moment to the next, and nobody tells. So the work is done in
+/// other; both may change from one moment to the next, without notice. So the work is done in
 /// slices: the faster way is kept, the other one tried from time to time, the more seldom the
 /// oftener it loses and the more a trial costs. So trials cost little in the long run, however slow
 /// the other way is.
@@ -16,7 +16,7 @@ class FasterOfTwo {
   /// The way to do the next slice, 0 or 1; 0 first.
   [[nodiscard]] int next() const { return trial_due() ? 1 - best_ : best_; }
 
-  /// What a step of the slice took; slices too short to tell need not be reported.
+  /// What a step of the slice took; slices too short to compare need not be reported.
   void took(int way, double time) {
     if (way == best_) {
       best_time_ = time;

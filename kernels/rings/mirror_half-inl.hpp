@@ -1,4 +1,5 @@
-// Half of a ball of rings that is left-right symmetric, stepped by one thread.
+// Half of a ball of rings that is left-right symmetric, stepped by one thread. A column is the
+// particles of all rings at one angle (ring_columns-inl.hpp).
 //
 // Why it is built so
 //  1. The axis goes through a column of the rings without stagger, above and below, and between two
@@ -37,9 +38,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "kernels/stepping/particle_store.hpp"
 #include "kernels/rings/ring_columns-inl.hpp"
 #include "kernels/rings/ring_forms-inl.hpp"
+#include "kernels/stepping/particle_store.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bounce {
@@ -51,7 +52,7 @@ template <class Columns>
 class MirrorHalf {
   using Column = typename Columns::Column;
   using Constants = typename Columns::Constants;
-  using Rest = typename Columns::Rest;
+  using Ending = typename Columns::Ending;
   using V = typename Columns::V;
   using D = hn::DFromV<V>;
   static constexpr D d{};
@@ -93,9 +94,9 @@ class MirrorHalf {
     }
   }
 
-  // What RingTeam asks of a walk: what is beyond its ends, from the outer columns of its first and
-  // last tile as they were before the stage, outermost first.
-  static constexpr size_t told = 3;
+  // What RingTeam asks of it: what is beyond the two ends, from the outer columns of the first and
+  // the last tile as they were before the stage, outermost first.
+  static constexpr size_t sent = 3;  // columns that it needs for that, from each end of a tile
   HWY_INLINE Column before_first(const double* const* first, const double* const* last) const {
     const Column previous =
         Columns::turn(by_length(Columns::load(last[0]), Columns::load(last[1])), -1);
@@ -167,13 +168,13 @@ class MirrorHalf {
   }
 
   HWY_INLINE void fill_ghosts() {
-    const double* const first[told] = {column(0), column(1), column(2)};
-    const double* const last[told] = {column(last_), column(last_ - 1), column(last_ - 2)};
+    const double* const first[sent] = {column(0), column(1), column(2)};
+    const double* const last[sent] = {column(last_), column(last_ - 1), column(last_ - 2)};
     Columns::store(before_first(first, last), before());
     Columns::store(behind_last(first, last), behind());
   }
 
-  // One stage. As in the ring kernel, what was moved last before is wanted late.
+  // One stage. As in RingLoop, what was moved last in the stage before is needed late.
   HWY_INLINE void pass(const Columns& physics, const Constants& c, const std::vector<Wall>& walls) {
     double* u = u_.data();
     double* u_first = u + chunk * Columns::terms;
@@ -185,11 +186,11 @@ class MirrorHalf {
       Columns::reciprocals(column(k), count, u);
       if (k == 1) {
         Columns::reciprocals(before(), 2, u_first);
-        physics.template sums<Rest::drop>(c, before(), 1, u_first, left, lowest);
-        physics.template sums<Rest::finish>(c, column(0), 1, u_first + Columns::terms, left,
+        physics.template sums<Ending::drop>(c, before(), 1, u_first, left, lowest);
+        physics.template sums<Ending::move>(c, column(0), 1, u_first + Columns::terms, left,
                                             lowest);
       }
-      physics.template sums<Rest::finish>(c, column(k), count, u, left, lowest);
+      physics.template sums<Ending::move>(c, column(k), count, u, left, lowest);
     }
     Columns::meet_walls(c, walls, column(0), last_ + 1, lowest);
     mend_first(column(0));

@@ -1,5 +1,5 @@
-// mirror: half of a ball of rings that is left-right symmetric (mirror_half-inl.hpp says how), by
-// one thread or a team of them (ring_team-inl.hpp).
+// mirror: half of a ball of rings that is left-right symmetric; the other half is its mirror image.
+// mirror_half-inl.hpp says how one thread steps it, ring_team-inl.hpp how several do.
 #if defined(BOUNCE_MIRROR_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_MIRROR_STEPPER_INL_HPP
 #undef BOUNCE_MIRROR_STEPPER_INL_HPP
@@ -42,7 +42,7 @@ class MirrorStepper final : public StagedStepper {
         shape_(shape),
         sum_(sum),
         physics_(shape, start.law),
-        walk_(std::make_unique<Walk>(choose_walk(shape.per_ring, threads))) {
+        traversal_(std::make_unique<Traversal>(make_traversal(shape.per_ring, threads))) {
     MirrorStepper::write(start.initial);
   }
 
@@ -54,7 +54,8 @@ class MirrorStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    std::visit([&](auto& walk) { walk.run(physics_, constants, model().walls, steps); }, *walk_);
+    std::visit([&](auto& traversal) { traversal.run(physics_, constants, model().walls, steps); },
+               *traversal_);
   }
 
   void read(State& state) const override {
@@ -82,11 +83,11 @@ class MirrorStepper final : public StagedStepper {
   }
 
  private:
-  using Walk = std::variant<Half, Team>;
+  using Traversal = std::variant<Half, Team>;
 
-  static Walk choose_walk(std::int64_t per_ring, int threads) {
-    if (threads == 1) return Walk(std::in_place_type<Half>, per_ring);
-    return Walk(std::in_place_type<Team>, Half(per_ring), static_cast<size_t>(threads));
+  static Traversal make_traversal(std::int64_t per_ring, int threads) {
+    if (threads == 1) return Traversal(std::in_place_type<Half>, per_ring);
+    return Traversal(std::in_place_type<Team>, Half(per_ring), static_cast<size_t>(threads));
   }
 
   [[nodiscard]] std::int64_t wrapped(std::int64_t column) const {
@@ -107,23 +108,23 @@ class MirrorStepper final : public StagedStepper {
   // Calls visit(where its x stands, ring, column from the axis above) for all that is stepped.
   template <class Visit>
   void for_each_particle(Visit visit) const {
-    const auto in_walk = [&](auto& walk) {
-      for (size_t k = 0; k < walk.size(); ++k) {
+    const auto in_half = [&](Half& half) {
+      for (size_t k = 0; k < half.size(); ++k) {
         for (size_t place = 0; place < size_t{R} * L; ++place) {
-          visit(walk.column(k) + place, static_cast<int>(place / L),
-                walk.begin_of(place % L) + static_cast<std::int64_t>(k));
+          visit(half.column(k) + place, static_cast<int>(place / L),
+                half.begin_of(place % L) + static_cast<std::int64_t>(k));
         }
       }
     };
-    std::visit([&](auto& walk) { in_walk(whole(walk)); }, *walk_);
+    std::visit([&](auto& traversal) { in_half(whole(traversal)); }, *traversal_);
   }
   static Half& whole(Half& half) { return half; }
-  static Half& whole(Team& team) { return team.walk(); }
+  static Half& whole(Team& team) { return team.whole(); }
 
   RingShape shape_;
   std::int64_t sum_;
   Columns physics_;
-  std::unique_ptr<Walk> walk_;
+  std::unique_ptr<Traversal> traversal_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,9 +1,10 @@
-// One column of concentric rings, in vectors: where it stands, its bonds, how it moves. The kernels
-// ring and mirror are walks over such columns.
+// One column of a ball of concentric rings, on vectors: where its particles stand, its bonds, how
+// it moves. A column is the particles of all rings at one angle. The kernels ring and mirror sweep
+// over such columns, one after another.
 //
 // Why it is built so
 //  1. The work is arithmetic: 360 particles are 11.5 kB and stay in L1. So each bond is computed
-//     once (Newton's third law), not twice as in the listing, and nothing is gathered.
+//     once (Newton's third law), not twice as in the listing, and nothing is gathered by index.
 //  2. Lane = sector. With L lanes and K columns a lane, lane l of vector k is column l K + k:
 //
 //         column:    0     1    ...   K-1 |  K    K+1  ...  2K-1 | ...
@@ -16,12 +17,12 @@
 //         x ring 0 .. R-1 | y ring 0 .. R-1 | vx ring 0 .. R-1 | vy ring 0 .. R-1
 //
 //  3. Two sweeps a stage: `reciprocals` takes 1/R^2 of each bond of some columns and leaves them in
-//     L1; `sums` takes differences again, forces, sums, kick, drift and wall. What limits a sweep
-//     is not the ports but how far the processor looks ahead: a column hangs together over some 45
-//     cycles (load, difference, square, product, division, products; then the force and five sums
-//     one after the other), and its results fill half of the register file. Two short sweeps keep
-//     two or three columns in flight, one long one hardly more than one. One sweep of 208
-//     instructions took 98 cycles a column on Zen 3, two of 74 and 146 take 60.
+//     L1; `sums` takes differences again, forces, sums, kick, drift and least height. What limits a
+//     sweep is not the ports but how far the processor looks ahead: a column hangs together over
+//     some 45 cycles (load, difference, square, product, division, products; then the force and
+//     five sums one after the other), and its results fill half of the register file. Two short
+//     sweeps keep two or three columns in flight, one long one hardly more than one: that took 98
+//     cycles a column, the two take 60.
 //  4. The differences are taken again rather than kept: two loads and a subtraction, on ports that
 //     are free, for a store and two loads. Keeping them took 70 cycles.
 //  5. The reciprocals of up to four squared distances share one division (multiply, divide once,
@@ -29,10 +30,11 @@
 //  6. Nothing is called within a sweep: a call in the loop, never taken, still made the compiler
 //     keep everything in memory around it. So walls come after it (vector_walls-inl.hpp); within,
 //     the least height is one minimum a particle.
-//  7. One answer: a particle's left bonds are summed from the gravity kick on their own, the others
-//     from its velocity, and the two are added once. That association, and the grouping of
-//     the reciprocals (the bonds of one column), depend on the neighbourhood alone, never on where
-//     a lane, a tile or a thread begins.
+//  7. One answer: the bonds that lead to a particle from the column on its left are summed on their
+//     own, from the gravity kick on (its left sums); its other bonds are summed from its velocity
+//     on; and the two sums are added once. That association, and the grouping of the reciprocals
+//     (the bonds of one column), depend on the neighbourhood alone, never on where a lane, a tile
+//     or a thread begins.
 //
 // Operations per column and vector, R = 3 rings, 7 bonds, law (3, 5):
 //   a bond: 2 for R^2, 3 for F/R, 4 for the sums; 2 + 2 subtractions    63 mul/fma, 28 sub
@@ -40,11 +42,10 @@
 //   a particle: 1 addition and 1 fma each for x and y; 1 minimum         6 fma,      6 add, 3 min
 // 84 multiplications: on two ports 42 cycles, 30 columns of vectors with 4 lanes, 15 with 8. (Where
 // additions share these ports, as on Intel's, 60 cycles.)
-// Reached on Zen 3: 60 cycles, 70 %, in the minutes in which the machine was quiet; 78 to 85 in
-// others (one sweep: 107 to 117), probably beside a neighbour on the core's other thread, which
-// takes half of how far it looks ahead. 220 instructions, 79 of them loads.
-// On Zen 4, which takes one multiplication of 8 lanes a cycle: 84 cycles with 8 lanes, of which 70
-// to 85 % were reached (README, by the minute).
+//
+// Cycles that are said to be taken, above and below, were seen on AMD Zen 3 with 4 lanes, in quiet
+// minutes: 60 of them are 70 % of what its ports allow. The part that is reached elsewhere, and
+// with 8 lanes, is the column "port limit" of results/throughput.md.
 //
 // Not taken: an approximate reciprocal with Newton steps (as fast, other bits on other makers'
 // processors); particles of one ring side by side in a vector (unaligned loads, and sums that
@@ -150,11 +151,11 @@ class RingColumns {
     V gx, gy, drift;
   };
 
-  /// What becomes of the sums of a column from its velocity on.
-  enum class Rest {
-    finish,  ///< its left sums are there: kick and drift
-    keep,    ///< they come later: put into the place of the velocities
-    drop     ///< another tile's column, only its right neighbour's left sums are wanted
+  /// What becomes of the sums that were taken from the velocities of a column on.
+  enum class Ending {
+    move,  ///< its left sums are known: they are added, and its particles drift
+    keep,  ///< its left sums come later: until then they wait in the place of the velocities
+    drop   ///< it is another tile's column: only the left sums of the column behind it are wanted
   };
 
   RingColumns(RingShape shape, PairLaw law) : shape_(std::move(shape)), law_(law) {}
@@ -202,7 +203,8 @@ class RingColumns {
     }
   }
 
-  /// Lane l gets lane l + shift's value: +1 turns column 0 into column K, -1 the other way round.
+  /// Lane l gets the value of lane l + shift: +1 turns vector 0 into what stands behind vector
+  /// K - 1, and -1 turns vector K - 1 into what stands before vector 0.
   static HWY_INLINE Column turn(const Column& column, int shift) {
     if constexpr (L == 1) {
       return column;
@@ -234,13 +236,14 @@ class RingColumns {
   }
 
   /// Second sweep, over the same columns. `left` comes with the left sums of the first column and
-  /// goes with those of the column behind the last. `lowest` becomes the least height, NaN apart.
-  template <Rest rest>
+  /// goes with those of the column behind the last. `lowest` becomes the least of itself and of all
+  /// heights that are numbers.
+  template <Ending ending>
   HWY_INLINE void sums(const Constants& c, double* at, size_t columns, const double* u,
                        Column& left, V& lowest) const {
     for (; columns > 0; --columns, at += block, u += terms) {
       Column from_velocity, on_next;
-      ring_sums<0, rest>(c, at, u, from_velocity, left, on_next, lowest);
+      ring_sums<0, ending>(c, at, u, from_velocity, left, on_next, lowest);
       left = on_next;
     }
   }
@@ -298,9 +301,9 @@ class RingColumns {
     }
   }
 
-  // Bond b: on `rest` what acts on the column at `at`, on `on_next` what acts on the next one.
+  // Bond b: adds to `sums` what acts on the column at `at`, to `on_next` what acts on the next one.
   template <int b>
-  HWY_INLINE void bond(const Constants& c, const double* at, const double* u, Column& rest,
+  HWY_INLINE void bond(const Constants& c, const double* at, const double* u, Column& sums,
                        Column& on_next) const {
     constexpr BondPlace p = place(b);
     const double* to = p.next ? at + block : at;
@@ -308,28 +311,28 @@ class RingColumns {
     const V dy = hn::Sub(y_of(at, p.from), y_of(to, p.to));
     const V over = hn::Load(d, u + static_cast<size_t>(b) * L);
     const V f = law_.force_over_distance(d, over, c.attraction[b], c.repulsion[b]);
-    rest.x[p.from] = hn::MulAdd(f, dx, rest.x[p.from]);
-    rest.y[p.from] = hn::MulAdd(f, dy, rest.y[p.from]);
+    sums.x[p.from] = hn::MulAdd(f, dx, sums.x[p.from]);
+    sums.y[p.from] = hn::MulAdd(f, dy, sums.y[p.from]);
     // The bond along a ring is the first from the left: it starts that sum, from the gravity kick.
-    Column& on = p.next ? on_next : rest;
+    Column& on = p.next ? on_next : sums;
     on.x[p.to] = hn::NegMulAdd(f, dx, b < R ? c.gx : on.x[p.to]);
     on.y[p.to] = hn::NegMulAdd(f, dy, b < R ? c.gy : on.y[p.to]);
   }
 
   template <int r>
-  HWY_INLINE void start_ring(const Constants& c, const double* at, const double* u, Column& rest,
+  HWY_INLINE void start_ring(const Constants& c, const double* at, const double* u, Column& sums,
                              Column& on_next) const {
-    rest.x[r] = x_of(at + positions, r);
-    rest.y[r] = y_of(at + positions, r);
-    bond<along(r)>(c, at, u, rest, on_next);
+    sums.x[r] = x_of(at + positions, r);
+    sums.y[r] = y_of(at + positions, r);
+    bond<along(r)>(c, at, u, sums, on_next);
   }
 
-  template <Rest rest>
+  template <Ending ending>
   HWY_INLINE void end_ring(const Constants& c, double* at, int r, const Column& sums,
                            const Column& left, V& lowest) const {
-    if constexpr (rest == Rest::finish) {
+    if constexpr (ending == Ending::move) {
       finish(c, at, r, sums, left, lowest);
-    } else if constexpr (rest == Rest::keep) {
+    } else if constexpr (ending == Ending::keep) {
       hn::Store(sums.x[r], d, at + positions + static_cast<size_t>(r) * L);
       hn::Store(sums.y[r], d, at + positions + row + static_cast<size_t>(r) * L);
     }
@@ -338,7 +341,7 @@ class RingColumns {
   // The bonds from ring to ring outwards: a ring is finished when its last bond is summed, so few
   // sums are alive at a time. Along, same, diagonal of each pair of rings: the order of the numbers
   // for each particle.
-  template <int ring, Rest rest>
+  template <int ring, Ending ending>
   HWY_INLINE void ring_sums(const Constants& c, double* at, const double* u, Column& sums,
                             const Column& left, Column& on_next, V& lowest) const {
     if constexpr (ring == 0) start_ring<0>(c, at, u, sums, on_next);
@@ -347,9 +350,9 @@ class RingColumns {
       bond<same(ring)>(c, at, u, sums, on_next);
       bond<diagonal(ring)>(c, at, u, sums, on_next);
     }
-    end_ring<rest>(c, at, ring, sums, left, lowest);
+    end_ring<ending>(c, at, ring, sums, left, lowest);
     if constexpr (ring + 1 < R) {
-      ring_sums<ring + 1, rest>(c, at, u, sums, left, on_next, lowest);
+      ring_sums<ring + 1, ending>(c, at, u, sums, left, on_next, lowest);
     }
   }
 

@@ -1,4 +1,5 @@
-// The forms of law and rings that the ring kernels are compiled for.
+// The laws and numbers of rings that the kernels ring and mirror are compiled for: from numbers
+// known at run time to types.
 #if defined(BOUNCE_RING_FORMS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_FORMS_INL_HPP
 #undef BOUNCE_RING_FORMS_INL_HPP

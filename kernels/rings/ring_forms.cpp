@@ -72,7 +72,7 @@ void describe_rings(const std::string& why, Plan& plan) {
 }
 
 int team_size(std::int64_t columns) {
-  constexpr std::int64_t columns_that_pay = 7;  // some 0.15 us
+  constexpr std::int64_t columns_that_pay = 7;  // 0.1 to 0.2 us (ring in results/throughput.md)
   constexpr std::int64_t small = 256;           // columns: 100 kB with 4 lanes and three rings
   const std::int64_t threads = default_threads();
   const std::int64_t most = columns < small ? 2 : threads;
@@ -80,12 +80,13 @@ int team_size(std::int64_t columns) {
       std::clamp<std::int64_t>(std::min(threads, columns / columns_that_pay), 1, most));
 }
 
-RingWalk ring_walk(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
+RingTraversal ring_traversal(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
   constexpr std::size_t cached_bytes =
-      std::size_t{256} * 1024;                // a second cache has 512 kB or more
-  constexpr std::size_t columns_alone = 128;  // with so many a tile steps several stages alone
-  if (threads > 1) return columns / threads < columns_alone ? RingWalk::team : RingWalk::tiles;
-  return columns * bytes_a_column <= cached_bytes ? RingWalk::loop : RingWalk::tiles;
+      std::size_t{256} * 1024;                // a second-level cache has 512 kB or more
+  constexpr std::size_t columns_alone = 128;  // with so many a thread takes several stages alone
+  if (threads > 1)
+    return columns / threads < columns_alone ? RingTraversal::team : RingTraversal::tiles;
+  return columns * bytes_a_column <= cached_bytes ? RingTraversal::loop : RingTraversal::tiles;
 }
 
 double ring_multiplications(const Problem& problem, int rings, std::int64_t columns) {

@@ -1,7 +1,10 @@
-// ring: concentric rings with constant offsets, by sweeps over their columns (ring_columns-inl.hpp
-// says how a column is computed and why).
+// ring: a ball of concentric rings whose bonds have constant offsets, stepped by sweeps over its
+// columns. How one column is computed, and why so, is in ring_columns-inl.hpp; in which order the
+// columns are taken depends on the ball and the threads (ring_traversal in ring_forms.hpp):
 //
-// ring_walk says which walk a ball needs.
+//   ring_loop-inl.hpp    one thread, a stage at a time
+//   ring_team-inl.hpp    a few threads on a small ball, a stage at a time
+//   ring_tiles-inl.hpp   a large ball, several stages on a part of it while that is in cache
 #if defined(BOUNCE_RING_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_STEPPER_INL_HPP
 #undef BOUNCE_RING_STEPPER_INL_HPP
@@ -40,13 +43,14 @@ class RingStepper final : public StagedStepper {
 
  public:
   /// `stages`: at most so many are taken while a tile is in cache. Fewer than most_ghosts are for
-  /// measuring what that saves: 1 is a plain sweep through memory a stage.
+  /// measuring what that saves: with 1 each stage is a plain sweep through memory.
   RingStepper(const Problem& start, const RingShape& shape, int threads,
               size_t stages = most_ghosts)
       : StagedStepper(start),
         physics_(shape, start.law),
         columns_(static_cast<size_t>(shape.per_ring) / L),
-        walk_(std::make_unique<Walk>(make_walk(columns_, static_cast<size_t>(threads), stages))) {
+        traversal_(std::make_unique<Traversal>(
+            make_traversal(columns_, static_cast<size_t>(threads), stages))) {
     RingStepper::write(start.initial);
   }
 
@@ -56,7 +60,8 @@ class RingStepper final : public StagedStepper {
     for (const StageConstants& stage : stages) {
       constants.push_back(physics_.make_constants(stage));
     }
-    std::visit([&](auto& walk) { walk.run(physics_, constants, model().walls, steps); }, *walk_);
+    std::visit([&](auto& traversal) { traversal.run(physics_, constants, model().walls, steps); },
+               *traversal_);
   }
 
   void read(State& state) const override {
@@ -68,19 +73,19 @@ class RingStepper final : public StagedStepper {
   }
 
  private:
-  using Walk = std::variant<Loop, Team, Tiles>;
+  using Traversal = std::variant<Loop, Team, Tiles>;
 
-  static Walk make_walk(size_t columns, size_t threads, size_t stages) {
-    if (stages < most_ghosts) return Walk(std::in_place_type<Tiles>, columns, threads, stages);
-    switch (ring_walk(columns, threads, Columns::block * sizeof(double))) {
-      case RingWalk::loop:
-        return Walk(std::in_place_type<Loop>, columns);
-      case RingWalk::team:
-        return Walk(std::in_place_type<Team>, Loop(columns), threads);
-      case RingWalk::tiles:
+  static Traversal make_traversal(size_t columns, size_t threads, size_t stages) {
+    if (stages < most_ghosts) return Traversal(std::in_place_type<Tiles>, columns, threads, stages);
+    switch (ring_traversal(columns, threads, Columns::block * sizeof(double))) {
+      case RingTraversal::loop:
+        return Traversal(std::in_place_type<Loop>, columns);
+      case RingTraversal::team:
+        return Traversal(std::in_place_type<Team>, Loop(columns), threads);
+      case RingTraversal::tiles:
         break;
     }
-    return Walk(std::in_place_type<Tiles>, columns, threads);
+    return Traversal(std::in_place_type<Tiles>, columns, threads);
   }
 
   // Calls visit(value in the state, its place in a column) for all numbers.
@@ -88,7 +93,8 @@ class RingStepper final : public StagedStepper {
   void for_each_place(AnyState& state, Visit visit) const {
     const auto arrays = std::array{&state.x, &state.y, &state.vx, &state.vy};
     for (size_t k = 0; k < columns_; ++k) {
-      double* column = std::visit([k](auto& walk) { return walk.column(k); }, *walk_);
+      double* column =
+          std::visit([k](auto& traversal) { return traversal.column(k); }, *traversal_);
       for (size_t row = 0; row < size_t{4} * R; ++row) {
         for (size_t l = 0; l < L; ++l) {
           visit((*arrays[row / R])[((row % R) * L + l) * columns_ + k], column[row * L + l]);
@@ -99,7 +105,7 @@ class RingStepper final : public StagedStepper {
 
   Columns physics_;
   size_t columns_;  // vectors a ring
-  std::unique_ptr<Walk> walk_;
+  std::unique_ptr<Traversal> traversal_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,34 +1,33 @@
-// A ring, or half of one, that is stepped by a few threads, each with a tile of its columns, a
-// stage at a time.
+// A ball of rings, or half of one, stepped by a few threads. Each thread has a tile, some
+// neighbouring columns, and steps it a stage at a time.
 //
 // Why it is built so
-//  1. A ball of 360 particles takes half a microsecond a stage; a line of memory takes a tenth or
-//  two
-//     from one core to another. So what a tile wants from its neighbours must have been on its way
-//     for a whole sweep before it is wanted, and little of it.
-//  2. Both ghosts are wanted at the end of a sweep only. Column 0 is swept first, but moved last,
-//  when
-//     the sums of its left bonds come; these a tile takes itself from the column before it, so that
-//     all it is told are positions:
+//  1. A ball of 360 particles takes some 0.4 us a stage, a message from one core to another and
+//     back 0.1 to 0.4 us (ring, and the column "hand-shake", in results/throughput.md). So what a
+//     tile needs from its neighbours must have been on its way for a whole sweep before it is
+//     needed, and must be little.
+//  2. The two ghosts of a tile, copies of the columns next to it, are needed at the end of a sweep
+//     only. Column 0 is swept first, but moved last, when the sums of its left bonds are known. A
+//     tile takes these itself from the column before it, so that only positions have to be sent:
 //
-//         sweep of a stage:   0 (sums kept)   1   2  ...  n-2 | wait | n-1   0 (left bonds, moved)
-//         is told:                                              column n and column -1 of the stage
-//                                                               before: sent a sweep ago
+//         sweep of a stage:  0 (sums kept)  1  2  ...  n-2 | wait | n-1  0 (left bonds, moved)
+//         needed now:                                        columns n and -1 of the stage
+//                                                            before, which were sent a sweep ago
 //
-//  3. Every thread waits for its two neighbours alone, through a counter on a line of its own.
+//  3. Every thread waits for its two neighbours alone, through a counter on a cache line of its
+//     own.
 //  4. Where the cores are far apart, or a thread has to share one, a team is slower than one
-//  thread:
-//     with hand-shakes of 0.11, 0.2 and 0.39 us there and back it took 0.67, 0.8 and 1.0 of one
-//     thread's time, with one core for two threads fifty times as much. So the work is done in
-//     slices of a millisecond, by the team or by one thread (ring_loop-inl.hpp) as was faster of
-//     late; the bits are the same.
+//     thread. On an AMD EPYC, with messages that took 0.11, 0.2 and 0.39 us there and back, it took
+//     0.67, 0.8 and 1.0 of one thread's time; with one core for two threads, fifty times as much.
+//     So the work is done in slices of a millisecond, by the team or by one thread (Whole) as was
+//     faster of late; the bits are the same.
 //  5. Columns are swept in chunks whose reciprocals stay in L1 beside them.
 //
 // Work beside the whole ball's: one column's bonds a tile, and two short sweeps.
 //
-// Not taken: several columns of ghosts and several stages alone (ring_tiles-inl.hpp: right for
-// large tiles; on 15 columns the ghosts, and fetching four vectors a particle, cost as much as they
-// save: 1.0 to 1.3 of one thread, by the minute); waiting before the first column (0.7 to 1.2).
+// Not taken: several columns of ghosts and several stages without a message (ring_tiles-inl.hpp:
+// right for large tiles; on 15 columns the ghosts, and sending four vectors a particle, cost as
+// much as they save); waiting before the first column instead of before the last one (slower).
 #if defined(BOUNCE_RING_TEAM_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_TEAM_INL_HPP
 #undef BOUNCE_RING_TEAM_INL_HPP
@@ -56,31 +55,31 @@ HWY_BEFORE_NAMESPACE();
 namespace bounce {
 namespace HWY_NAMESPACE {
 
-/// Columns: a RingColumns. Walk: how one thread steps all columns and what is beyond their ends:
-/// RingLoop or MirrorHalf.
-template <class Columns, class Walk>
+/// Columns: a RingColumns. Whole: all columns as one thread steps them, and what is beyond their
+/// ends: RingLoop or MirrorHalf.
+template <class Columns, class Whole>
 class RingTeam {
   using Column = typename Columns::Column;
   using Constants = typename Columns::Constants;
-  using Rest = typename Columns::Rest;
+  using Ending = typename Columns::Ending;
   using V = typename Columns::V;
   static constexpr size_t block = Columns::block;
   static constexpr size_t chunk = 32;  // columns; their reciprocals take 7 kB with 4 lanes
 
  public:
   /// A tile a thread, of at least fewest_columns.
-  RingTeam(Walk walk, size_t tiles) : walk_(std::move(walk)) {
-    const size_t columns = walk_.size();
+  RingTeam(Whole whole, size_t tiles) : whole_(std::move(whole)) {
+    const size_t columns = whole_.size();
     for (size_t t = 0; t < tiles; ++t) {
       tiles_.emplace_back(columns * t / tiles, columns * (t + 1) / tiles);
     }
   }
 
-  static constexpr size_t fewest_columns = std::max<size_t>(2, Walk::told);
+  static constexpr size_t fewest_columns = std::max<size_t>(2, Whole::sent);
 
-  [[nodiscard]] double* column(size_t k) { return walk_.column(k); }
+  [[nodiscard]] double* column(size_t k) { return whole_.column(k); }
   /// Holds the columns between two calls of run().
-  [[nodiscard]] Walk& walk() { return walk_; }
+  [[nodiscard]] Whole& whole() { return whole_; }
 
   void run(const Columns& physics, const std::vector<Constants>& constants,
            const std::vector<Wall>& walls, std::int64_t steps) {
@@ -90,13 +89,13 @@ class RingTeam {
       const int way = choice_.next();
       const auto start = Clock::now();
       if (way == alone) {
-        walk_.run(physics, constants, walls, slice);
+        whole_.run(physics, constants, walls, slice);
       } else {
         run_together(physics, constants, walls, slice);
       }
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
       steps -= slice;
-      if (4 * slice < slice_) continue;  // too short to tell
+      if (4 * slice < slice_) continue;  // too short to compare
       choice_.took(way, seconds / static_cast<double>(slice));
       if (slice == slice_ && seconds < 0.5 * slice_seconds) slice_ *= 2;
     }
@@ -119,13 +118,14 @@ class RingTeam {
     [[nodiscard]] double* behind() { return column(size()); }
   };
 
-  // Where a tile tells its neighbours the positions of its outer columns, for even and odd stages.
+  // What a tile sends to its neighbours: the positions of its outer columns, for even and odd
+  // stages.
   struct alignas(64) Mailbox {
     std::atomic<std::int64_t> stage{-1};
-    alignas(64) double first[2][Walk::told][Columns::positions];
-    alignas(64) double last[2][Walk::told][Columns::positions];
+    alignas(64) double first[2][Whole::sent][Columns::positions];
+    alignas(64) double last[2][Whole::sent][Columns::positions];
   };
-  using Told = const double * [Walk::told];
+  using Sent = const double * [Whole::sent];
 
   HWY_NOINLINE void run_together(const Columns& physics, const std::vector<Constants>& constants,
                                  const std::vector<Wall>& walls, std::int64_t steps) {
@@ -133,7 +133,7 @@ class RingTeam {
     std::vector<Mailbox> boxes(tiles);
     for (size_t t = 0; t < tiles; ++t) {
       Tile& tile = tiles_[t];
-      std::copy_n(walk_.column(tile.begin), tile.size() * block, tile.column(0));
+      std::copy_n(whole_.column(tile.begin), tile.size() * block, tile.column(0));
       mend(t);
       publish(boxes[t], tile, 0);
     }
@@ -155,19 +155,19 @@ class RingTeam {
       }
     }
     for (Tile& tile : tiles_) {
-      std::copy_n(tile.column(0), tile.size() * block, walk_.column(tile.begin));
+      std::copy_n(tile.column(0), tile.size() * block, whole_.column(tile.begin));
     }
   }
 
   HWY_INLINE void mend(size_t t) {
-    if (t == 0) walk_.mend_first(tiles_[t].column(0));
-    if (t + 1 == tiles_.size()) walk_.mend_last(tiles_[t].column(tiles_[t].size() - 1));
+    if (t == 0) whole_.mend_first(tiles_[t].column(0));
+    if (t + 1 == tiles_.size()) whole_.mend_last(tiles_[t].column(tiles_[t].size() - 1));
   }
 
   // The outermost columns first.
   static HWY_INLINE void publish(Mailbox& box, Tile& tile, std::int64_t stage) {
     const auto parity = static_cast<size_t>(stage & 1);
-    for (size_t i = 0; i < Walk::told; ++i) {
+    for (size_t i = 0; i < Whole::sent; ++i) {
       Columns::store(Columns::load(tile.column(i)), box.first[parity][i]);
       Columns::store(Columns::load(tile.column(tile.size() - 1 - i)), box.last[parity][i]);
     }
@@ -182,16 +182,17 @@ class RingTeam {
     const Mailbox& behind = boxes[(t + 1) % tiles];
     wait_for(behind.stage, stage);
     wait_for(before.stage, stage);
-    Told first, last;  // of the whole
-    for (size_t i = 0; i < Walk::told; ++i) {
+    Sent first, last;  // of all columns
+    for (size_t i = 0; i < Whole::sent; ++i) {
       first[i] = boxes.front().first[parity][i];
       last[i] = boxes.back().last[parity][i];
     }
     Columns::store(
-        t + 1 == tiles ? walk_.behind_last(first, last) : Columns::load(behind.first[parity][0]),
+        t + 1 == tiles ? whole_.behind_last(first, last) : Columns::load(behind.first[parity][0]),
         tiles_[t].behind());
-    Columns::store(t == 0 ? walk_.before_first(first, last) : Columns::load(before.last[parity][0]),
-                   tiles_[t].before());
+    Columns::store(
+        t == 0 ? whole_.before_first(first, last) : Columns::load(before.last[parity][0]),
+        tiles_[t].before());
   }
 
   // One stage of tile t.
@@ -210,21 +211,21 @@ class RingTeam {
       Columns::reciprocals(tile.column(k), count, u);
       if (k == 1) {
         Columns::reciprocals(tile.column(0), 1, u_first);
-        physics.template sums<Rest::keep>(c, tile.column(0), 1, u_first, left, lowest);
+        physics.template sums<Ending::keep>(c, tile.column(0), 1, u_first, left, lowest);
       }
-      physics.template sums<Rest::finish>(c, tile.column(k), count, u, left, lowest);
+      physics.template sums<Ending::move>(c, tile.column(k), count, u, left, lowest);
       k += count;
     } while (k < last);
     fill_ghosts(t, boxes, stage);
     Columns::reciprocals(tile.column(last), 1, u);
     Columns::reciprocals(tile.before(), 1, u_before);
-    physics.template sums<Rest::finish>(c, tile.column(last), 1, u, left, lowest);
-    physics.template sums<Rest::drop>(c, tile.before(), 1, u_before, left_of_first, lowest);
+    physics.template sums<Ending::move>(c, tile.column(last), 1, u, left, lowest);
+    physics.template sums<Ending::drop>(c, tile.before(), 1, u_before, left_of_first, lowest);
     physics.finish_kept(c, tile.column(0), left_of_first, lowest);
     Columns::meet_walls(c, walls, tile.column(0), tile.size(), lowest);
   }
 
-  Walk walk_;
+  Whole whole_;
   std::vector<Tile> tiles_;
   FasterOfTwo choice_;
   std::int64_t slice_ = 256;  // steps

@@ -1,9 +1,10 @@
-// A run of ring columns that is stepped several stages at a time, alone and within cache.
+// A large ball of rings in tiles: runs of columns, each of which is stepped several stages at a
+// time, alone and within cache (ring_columns-inl.hpp has what a column is, and its left sums).
 //
 // Why it is built so
-//  1. A tile of n columns has g ghost columns at either side. A stage spoils the outermost one of
-//     each side, so g stages are taken before the ghosts are wanted anew: stage s of them moves
-//     columns -(g-1-s) .. n+(g-1-s).
+//  1. A tile of n columns has g ghost columns at either side, copies of its neighbours' columns. A
+//     stage spoils the outermost one of each side, so g stages are taken before the ghosts have to
+//     be copied anew: stage s of them moves columns -(g-1-s) .. n+(g-1-s).
 //  2. A column's stage needs the stage before on itself and on the next column; of the column
 //     before only the left sums, which the sweep carries. So stage s may follow stage s - 1 one
 //     column behind it, and a column is loaded once for all stages:
@@ -18,7 +19,7 @@
 //     left sums were taken before, the next stage comes later.
 //
 // Work beside the whole ball's: g (g - 1) columns of ghosts and g single ones for the first left
-// sums, per g stages.
+// sums, per g stages. What that saves against a plain sweep a stage: results/large-balls.md.
 #if defined(BOUNCE_RING_TILES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_RING_TILES_INL_HPP
 #undef BOUNCE_RING_TILES_INL_HPP
@@ -51,7 +52,7 @@ template <class Columns>
 class RingTile {
   using Column = typename Columns::Column;
   using Constants = typename Columns::Constants;
-  using Rest = typename Columns::Rest;
+  using Ending = typename Columns::Ending;
   using V = typename Columns::V;
   static constexpr size_t block = Columns::block;
   static constexpr size_t chunk = 32;  // columns; their reciprocals take 7 kB with 4 lanes
@@ -101,7 +102,7 @@ class RingTile {
                              Column& left) {
     V lowest = Columns::high_up();
     Columns::reciprocals(column(k - 1), 1, u_.data());
-    physics.template sums<Rest::drop>(c, column(k - 1), 1, u_.data(), left, lowest);
+    physics.template sums<Ending::drop>(c, column(k - 1), 1, u_.data(), left, lowest);
   }
 
   // One stage of columns begin .. end - 1, at most a chunk and the ghosts.
@@ -110,7 +111,7 @@ class RingTile {
     const auto count = static_cast<size_t>(end - begin);
     V lowest = Columns::high_up();
     Columns::reciprocals(column(begin), count, u_.data());
-    physics.template sums<Rest::finish>(c, column(begin), count, u_.data(), left, lowest);
+    physics.template sums<Ending::move>(c, column(begin), count, u_.data(), left, lowest);
     Columns::meet_walls(c, walls, column(begin), count, lowest);
   }
 
@@ -179,13 +180,13 @@ class RingTiles {
   // At most this part of a tile's columns is ghosts at either side.
   static constexpr size_t ghost_part = 16;
 
-  // What a tile tells its neighbours: its outer columns, for even and odd visits.
+  // What a tile sends to its neighbours: its outer columns, for even and odd visits.
   struct alignas(64) Mailbox {
     std::atomic<std::int64_t> visits{-1};
     AlignedArray first[2], last[2];
   };
 
-  // Tells the neighbours where this tile's outer columns stand before visit number `visit`.
+  // Sends the neighbours this tile's outer columns as they are before visit number `visit`.
   static void publish(Mailbox& box, const Tile& tile, std::int64_t visit) {
     const auto parity = static_cast<size_t>(visit & 1);
     const size_t ghosts = tile.ghosts();
@@ -207,7 +208,7 @@ class RingTiles {
     }
   }
 
-  // Fills tile t's ghosts with what its neighbours told.
+  // Fills tile t's ghosts with what its neighbours sent.
   HWY_INLINE void fill_ghosts(size_t t, const std::vector<Mailbox>& boxes, std::int64_t visit) {
     const size_t tiles = tiles_.size(), ghosts = tiles_[t].ghosts();
     const auto parity = static_cast<size_t>(visit & 1);
