@@ -1,4 +1,4 @@
-// What happens between particles and walls where contacts are located (contact_solver.hpp).
+// What a motion between walls was like, contact by contact, as contact_solver.hpp finds it.
 #pragma once
 
 #include <cstddef>
@@ -28,12 +28,12 @@ struct ContactEvent {
   ContactKind kind = ContactKind::lands;
 };
 
-/// What a course did.
+/// What happened in a motion that was followed.
 struct ContactRun {
   std::vector<ContactEvent> events;  ///< in the order of time
   std::int64_t steps = 0;            ///< taken, those that were cut at an event too
   std::int64_t evaluations = 0;      ///< of the force, with those of steps not taken
-  double height_cut = 0.0;           ///< cm
+  double height_cut = 0.0;           ///< a bounce lower than this counts as rest, cm
 };
 
 }  // namespace bounce

@@ -1,14 +1,16 @@
-// The course of a motion between contacts: when a particle meets a wall or is pulled off it, and
-// what happens then (located.hpp has the rules). A template over the way a step is made:
+// Solves a motion with contacts: finds when a particle meets a wall or is pulled off it, and does
+// what the rules have for that (located.hpp). Between contacts the motion is made by a Flow, which
+// is a parameter: one step of it, of any length, from a given start.
 //
 //   attempt ----> [start ........................ end]     one step, as long as the flow likes
 //   scan          which gauge crosses 0 first?             none: the step is taken
 //   locate        start ......... event                    the step made anew, shorter, until its
 //                                                          end is the event: Newton in a bracket
-//   act           rules; the flow begins afresh there
+//   act           the rules; the flow begins afresh from there
 //
-//  1. A gauge is above 0 while nothing happens: the distance of a free particle from a wall, or
-//     -a_n of one that rests there. Its slope is known, too (v_n, the jerk).
+//  1. A gauge is a number for one particle and one wall that is above 0 while nothing happens: the
+//     distance of a free particle from the wall, or -a_n of one that rests there (its acceleration
+//     along the normal, negative). Its slope is known, too (v_n, the jerk).
 //  2. The step to an event is made from its start, not interpolated: the event is as exact as the
 //     method. Interpolation (a cubic from values and slopes at both ends) only says where to look.
 //  3. A gauge may cross 0 and come back within a step. Its slope then turns; where the cubic says
@@ -19,8 +21,8 @@
 //     has risen by more than that, and meanwhile its gauge is raised by as much, so that roundings
 //     are no contacts.
 //
-// The reference solutions follow a whole course (run); a stepper takes it step by step (step), each
-// from what the state alone says, so that it can begin again anywhere.
+// The reference solutions follow a whole motion (run). Located contact takes one step at a time
+// (step), each from what the state alone says, so that it can begin again anywhere.
 #pragma once
 
 #include <algorithm>

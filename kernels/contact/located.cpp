@@ -13,8 +13,9 @@
 namespace bounce {
 namespace {
 
-constexpr std::int64_t most_steps = 1 << 16;  // of a flight between two looks
-// A flight costs a look, a restart and its last stage: as much as some evaluations near a wall.
+constexpr std::int64_t most_steps = 1 << 16;  // on the kernel inside between two looks at the walls
+// Going over to the kernel inside costs a look, a restart and its last stage: as much as some
+// evaluations near a wall.
 constexpr std::int64_t fewest_evaluations = 32;
 
 Model without_walls(Model model) {
@@ -29,67 +30,67 @@ class LocatedStepper final : public Stepper {
         open_(without_walls(problem)),
         fewest_steps_((fewest_evaluations + problem.method->evaluations - 1) /
                       problem.method->evaluations),
-        flight_(std::move(inside)),
+        inside_(std::move(inside)),
         flow_(problem_),
-        course_(problem_, flow_),
+        solver_(problem_, flow_),
         state_(problem.initial) {}
 
   void advance(std::int64_t steps) override {
     while (steps > 0) {
-      const std::int64_t flown = fly(steps);
-      if (flown == 0) walk();
-      steps -= std::max<std::int64_t>(flown, 1);
+      const std::int64_t taken = advance_inside(steps);
+      if (taken == 0) step_near_wall();
+      steps -= std::max<std::int64_t>(taken, 1);
     }
   }
-  [[nodiscard]] State state() const override { return flies_ ? flight_->state() : state_; }
+  [[nodiscard]] State state() const override { return is_inside_ ? inside_->state() : state_; }
   [[nodiscard]] Snapshot save() const override {
-    if (!flies_) return {state_, false, step_};
-    Snapshot snapshot = flight_->save();
-    snapshot.own = {flies_until_};
+    if (!is_inside_) return {state_, false, step_};
+    Snapshot snapshot = inside_->save();
+    snapshot.own = {clear_until_};
     return snapshot;
   }
   void restore(const Snapshot& snapshot) override {
     step_ = snapshot.step;
-    flies_ = !snapshot.own.empty();
-    flies_until_ = flies_ ? snapshot.own.front() : -1;
-    if (flies_) {
-      flight_->restore(snapshot);
+    is_inside_ = !snapshot.own.empty();
+    clear_until_ = is_inside_ ? snapshot.own.front() : -1;
+    if (is_inside_) {
+      inside_->restore(snapshot);
       return;
     }
     state_ = snapshot.state;
     if (snapshot.stage_held) finish_step(open_, state_);  // another kernel's
-    flight_->conform(state_);
+    inside_->conform(state_);
   }
   [[nodiscard]] std::int64_t step() const override { return step_; }
 
  private:
-  // In flight, at most `steps`; 0 if a wall is near.
-  std::int64_t fly(std::int64_t steps) {
-    if (flies_until_ <= step_) {
-      const std::int64_t clear = clear_steps(flies_ ? flight_->save().state : state_);
+  // On the kernel inside, at most `steps`. Returns how many; 0 if a wall is near.
+  std::int64_t advance_inside(std::int64_t steps) {
+    if (clear_until_ <= step_) {
+      const std::int64_t clear = clear_steps(is_inside_ ? inside_->save().state : state_);
       if (clear < fewest_steps_) return 0;
-      if (!flies_) flight_->restore({state_, false, step_});
-      flies_ = true;
-      flies_until_ = step_ + clear;
+      if (!is_inside_) inside_->restore({state_, false, step_});
+      is_inside_ = true;
+      clear_until_ = step_ + clear;
     }
-    const std::int64_t taken = std::min(steps, flies_until_ - step_);
-    flight_->advance(taken);
+    const std::int64_t taken = std::min(steps, clear_until_ - step_);
+    inside_->advance(taken);
     step_ += taken;
     return taken;
   }
 
-  // A step near a wall.
-  void walk() {
-    if (flies_) state_ = flight_->state();
-    flies_ = false;
-    flies_until_ = -1;
-    course_.step(problem_.step, state_);
-    flight_->conform(state_);
+  // One step with the solver of contacts.
+  void step_near_wall() {
+    if (is_inside_) state_ = inside_->state();
+    is_inside_ = false;
+    clear_until_ = -1;
+    solver_.step(problem_.step, state_);
+    inside_->conform(state_);
     ++step_;
   }
 
-  // How many steps nobody takes to reach a wall (reason 5); 0 for a state that is not finite. The
-  // state may lack its last stage.
+  // For how many steps no particle can reach a wall (estimated, reason 5 in located.hpp); 0 for a
+  // state that is not finite. The state may lack its last stage.
   [[nodiscard]] std::int64_t clear_steps(const State& state) {
     if (!is_finite(state)) return 0;
     const std::size_t n = state.size();
@@ -118,13 +119,13 @@ class LocatedStepper final : public Stepper {
   Problem problem_;
   Model open_;
   std::int64_t fewest_steps_;
-  std::unique_ptr<Stepper> flight_;
+  std::unique_ptr<Stepper> inside_;
   MethodFlow flow_;
-  ContactSolver<MethodFlow> course_;
-  State state_;                    // unless it flies
+  ContactSolver<MethodFlow> solver_;
+  State state_;                    // where not is_inside_
   std::vector<double> pull_;       // accelerations at the last look
-  bool flies_ = false;             // the state is flight_'s
-  std::int64_t flies_until_ = -1;  // step up to which nobody can reach a wall
+  bool is_inside_ = false;         // the state is that of inside_
+  std::int64_t clear_until_ = -1;  // step up to which no particle can reach a wall
   std::int64_t step_ = 0;
 };
 

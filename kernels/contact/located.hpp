@@ -1,5 +1,5 @@
 // Contact "located": the paper's rule in the limit of small steps, with the time of each contact
-// found, so that the method keeps its order through it.
+// found, so that the method keeps its order through it. A kernel that wraps another.
 //
 // A particle that reaches a wall (n.x = offset) has its tangential velocity multiplied by alpha and
 // its normal one by beta, at that time. With beta = 0 it then stays there while its normal
@@ -7,28 +7,30 @@
 // or slides (alpha = 1). A bounce lower than the roundings of a coordinate counts as rest.
 //
 // Why it is built so
-//  1. Contacts are few: 144 in Example 5, 375 in Example 6, in 18 million of the paper's steps.
-//     What a step with one costs does not matter, but it has to be made with all particles, from
-//     the step's start to the contact and from there on. A particle's own path put right
-//     afterwards, as by the resolved rule, leaves an error of first order, and a ball multiplies
-//     it by 50 000 up to the end (bounce reference).
+//  1. Contacts are few: 144 in Example 5, 375 in Example 6 (results/contact.md), in 18 million of
+//     the paper's steps. What a step with one costs does not matter, but it has to be made with all
+//     particles, from the step's start to the contact and from there on. A particle's own path put
+//     right afterwards, as by the resolved rule, leaves an error of first order, and a ball
+//     multiplies it up to the end: by 40 000 in these examples (column "times" there).
 //  2. So a ball that is clear of the walls runs on the kernel inside, and one that is near runs
 //     step by step in contact_solver.hpp, in plain loops.
 //  3. Which of the two follows from the state alone: for how many steps it is far enough away is
 //     decided when the last decision has run out, and a snapshot carries what is left of it. So a
 //     run has the same bits for any threads, vectors and restarts.
-//  4. A kernel that holds less than any state, as that of half balls, says so (Stepper::conform):
-//     its form is kept near a wall, too.
+//  4. A kernel that cannot hold every state, as that of half balls cannot, says so
+//     (Stepper::conform): states are kept in its form near a wall, too.
 //  5. How far a particle gets is estimated: four times the ball's greatest speed, and twice the way
-//     of its greatest acceleration, whatever their directions. A vibration has one or the other. The kernel inside has the
-//     resolved rule, so what should come to a wall all the same is met there.
+//     of its greatest acceleration, whatever their directions. A vibration has one or the other.
+//     The kernel inside has the resolved rule, so what should come to a wall all the same is met
+//     there.
 //
-// Cost: near a wall a step takes some 1.5 us an evaluation for the paper's ball, four to ten times
-// the kernels'. The ball is near for 5 to 30 % of the examples.
+// Cost: near a wall a step takes several times as long as on the kernel inside. In Examples 1, 2
+// and 4 to 6 the ball is in contact for less than a third of the time (results/contact.md).
 //
 // A step that is cut is two of other lengths, which a symplectic method does not keep its energy
-// through: with steps of 0.9 of the stable one leapfrog blows up in Examples 4 to 6 (contact.md),
-// where uncut ones do not. Contacts are too few to matter at smaller steps.
+// through: with steps of 0.87 of the stable one leapfrog blows up in Examples 4 to 6, where uncut
+// ones do not (leapfrog at 3.33e-4 s in results/accuracy/). Contacts are too few to matter at
+// smaller steps.
 //
 // Not taken: the kernels' passes with the resting particles put back after each (their tiles and
 // teams have no place to do it); the reflections of resolved contact for all but the steps with

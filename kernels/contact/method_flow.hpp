@@ -1,5 +1,5 @@
 // One step of a method (method.hpp), of any length, in double precision, particle by particle: the
-// Flow (contact_solver.hpp) of steps with contacts.
+// Flow of which contact_solver.hpp makes steps with contacts.
 //
 // A step is made from its start to its end, no stage is held over: a method that begins with the
 // kick it ends with has its force from the last step, as long as no particle has been moved.

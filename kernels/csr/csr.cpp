@@ -1,4 +1,5 @@
-// Instantiates the csr kernel for each vector target; csr_physics-inl.hpp says how it works.
+// The csr kernel compiled for each vector target, and its plan; csr_physics-inl.hpp says how it
+// works.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/csr/csr.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h

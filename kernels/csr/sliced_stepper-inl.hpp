@@ -1,13 +1,12 @@
-// What csr and strict share: any neighbour list, particles side by side in vectors, threads over
-// slices. The physics of one slice is a parameter.
+// What the kernels csr and strict share: any neighbour list, particles side by side in vectors,
+// threads over slices. A slice is as many particles as a vector has lanes (slices.hpp draws one);
+// its physics is a parameter.
 //
 // Why it is built so
 //  1. Both directions of a bond are computed: a particle's sum is its own, nothing is written by
-//  two
-//     lanes or two threads, and its order is that of its row, whoever computes it.
+//     two lanes or two threads, and its order is that of its row, whoever computes it.
 //  2. Positions stand twice (ParticleStore): a pass reads the one copy and writes the other.
-//  Threads
-//     meet once a stage, at the end.
+//     Threads meet once a stage, at the end.
 //  3. Neighbours of consecutive particles are mostly consecutive themselves (slices.hpp): then a
 //     plain load replaces the gather, in any list, found entry by entry.
 #if defined(BOUNCE_SLICED_STEPPER_INL_HPP) == defined(HWY_TARGET_TOGGLE)

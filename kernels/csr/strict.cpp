@@ -5,10 +5,9 @@
 //     F = (-G + H/R)/R; (F dx)/R; sums from left to right in the order of the row; gravity; kick;
 //     drift; wall. Four divisions an entry, no fused multiply-add: it is as slow as that is.
 //  2. Sums start at -0.0, the one number to which anything can be added without changing it; a lane
-//     without an entry keeps its sum (a blend, not an added zero, which would lose the sign of
-//     -0.0).
+//     without an entry keeps its sum (a blend: adding a zero would lose the sign of -0.0).
 //  3. Walls are written like the oracle's: the X axis as the listing has it, others in their own
-//  axes.
+//     axes.
 //
 // Not taken: sharing divisions, or any algebra that rounds differently. That is csr's and ring's.
 #undef HWY_TARGET_INCLUDE

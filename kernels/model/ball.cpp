@@ -83,8 +83,8 @@ BallSize ball_size(const BallSpec& spec) {
 
 std::vector<double> rest_lengths_squared(const BallSpec& spec, Rest rest) {
   if (rest == Rest::listing) {
-    return {0.06854, 1.0205, 0.09865, 1.028925,
-            0.1343};  // MODEL 2: the listing's constants / 16000
+    // The listing's constants, 1096.64, 16328, 1578.4, 16462.8 and 2148.8, over its E = 16000.
+    return {0.06854, 1.0205, 0.09865, 1.028925, 0.1343};
   }
   if (spec.kind == BallKind::disc) return {*spec.spacing * *spec.spacing};
   // In extended precision, so that each square is the double nearest to the exact geometry's.

@@ -67,7 +67,7 @@ RingRow ring_row(int rings, std::int64_t per_ring, std::int64_t particle) {
   if (ring > 0) add_beside(row, ring - 1);
   if (ring > 0 && !outermost) add_own(row);
   if (!outermost) add_beside(row, ring + 1);
-  // The two rows that the listing writes out of order (MODEL 3): particles 121 and 360.
+  // The two rows that the listing writes out of order: particles 121 and 360.
   if (rings == 3 && ring == 1 && column == 0) row.swap(4, 5);
   if (rings == 3 && ring == 2 && column == per_ring - 1) row.swap(0, 1);
   return row;

@@ -55,9 +55,9 @@ RingRow ring_row(int rings, std::int64_t per_ring, std::int64_t particle);
 std::size_t ring_entries(int rings, std::int64_t per_ring);
 
 /// Bonds of `rings` rings of `per_ring` particles each: next and previous on the ring, and the two
-/// nearest on each adjacent ring (MODEL 1). Ring r has class 2r, rings r and r+1 have class 2r+1.
-/// Entry order is the listing's, with its two irregular rows (particles 121 and 360) for three
-/// rings.
+/// nearest on each adjacent ring (paper, section 2). Ring r has class 2r, rings r and r+1 have
+/// class 2r+1. Entry order is the listing's, with its two irregular rows (particles 121 and 360)
+/// for three rings.
 BondList ring_bonds(int rings, std::int64_t per_ring);
 
 /// Throws std::logic_error naming the particle if a neighbour is out of range, a particle is its

@@ -59,7 +59,7 @@ constexpr std::array<Stage, 12> blanes_moan_6_stages = [] {
 constexpr std::array<Method, 6> table{{
     {.name = "listing",
      .description = "semi-implicit Euler, the scheme of the paper's program",
-     .source = "Greenspan's listing, labels 5634 to 7123; MODEL 3",
+     .source = "Greenspan's listing, labels 5634 to 7123",
      .stages = listing_stages,
      .order = 1,
      .evaluations = 1,

@@ -1,13 +1,14 @@
 // Time-stepping methods as tables. A stage is a kick, v += kick dt a(x), then a drift,
-// x += drift dt v, then the walls. One kernel runs them all; it never knows which method it runs.
+// x += drift dt v, then the walls. A kernel runs the stages of any table; it never knows which
+// method that is.
 //
 // A first-same-as-last method ends a step with what it begins one with: a kick (its last stage does
 // not drift), or a drift (its first stage does not kick). Between two steps its last stage is held
 // over and joined to the first one of the next step:
 //
-//     kick to kick     ... (b, c) (b1, 0) | (b1, c1) (b2, c2) ...    held (b1, 0), joined (2 b1,
-//     c1) drift to drift   ... (b, c) (b1, c1) | (0, c1) (b1, c2) ...    held (b1, c1), joined (b1,
-//     2 c1)
+//                        end of a step   | begin of the next         held       joined
+//     kick to kick     (b, c) (b1, 0)  | (b1, c1) (b2, c2) ...       (b1, 0)    (2 b1, c1)
+//     drift to drift   (b, c) (b1, c1) | (0, c1) (b1, c2) ...        (b1, c1)   (b1, 2 c1)
 //
 // So a step costs one pass over the ball less than it has stages, and none of its passes is without
 // force, but for the very first stage of a run that begins with a drift. What is read out is

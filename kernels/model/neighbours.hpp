@@ -1,9 +1,9 @@
 // Who is bound to whom: any list, or rings, of which no list is needed.
 //
-// A ball of rings is told by two numbers, and each row of its list can be computed in a few
-// nanoseconds; a list of it takes 32 bytes a particle, as much as its state. So rings keep the two
-// numbers, and code that reads row by row (visit_row) needs no more. Code that wants a BondList
-// gets one: it is built when first asked for and then shared by all copies.
+// The neighbours in a ball of rings follow from two numbers, and each row of its list can be
+// computed in a few nanoseconds; a list of it takes 32 bytes a particle, as much as its state. So
+// rings keep the two numbers, and code that reads row by row (visit_row) needs no more. Code that
+// wants a BondList gets one: it is built when first asked for and then shared by all copies.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace bounce {
 
 class Neighbours {
  public:
-  /// Nobody's.
+  /// Of no particles.
   Neighbours();
   /// Any list. Implicit: a list is a neighbourhood.
   Neighbours(BondList list);  // NOLINT(google-explicit-constructor)
@@ -83,7 +83,7 @@ class Neighbours {
   struct Bond {
     std::uint32_t i, j, bond_class;
   };
-  // Some 36 bytes a particle: as much as a core's second cache holds.
+  // Some 36 bytes a particle: as much as a core's second-level cache holds.
   static constexpr std::size_t most_kept = 20000;
   [[nodiscard]] const std::vector<Bond>& kept_bonds() const;
 

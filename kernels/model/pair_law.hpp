@@ -1,5 +1,5 @@
-// The law of a bond, -G/R^p + H/R^q (paper, equation 1): force, potential and stiffness, side by
-// side.
+// The force of a bond, -G/R^p + H/R^q at a distance R (paper, equation 1), its potential and its
+// stiffness.
 #pragma once
 
 namespace bounce {

@@ -1,5 +1,5 @@
-// Powers of a bond's length, for sums over all bonds: the kind of power is decided once, not a
-// bond.
+// Powers of a bond's length, for sums over all bonds: the kind of power is decided once, not for
+// each bond.
 #pragma once
 
 #include <cmath>

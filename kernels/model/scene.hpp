@@ -22,7 +22,7 @@ struct Vec2 {
   double y = 0.0;
 };
 
-/// How E, E R0^2, g and the time step are stored before they are computed with (MODEL 3).
+/// How E, E R0^2, g and the time step are stored before they are computed with.
 enum class Constants {
   single_precision,  ///< rounded to single precision, as FORTRAN reads the listing's literals
   double_precision,

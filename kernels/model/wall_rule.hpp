@@ -12,10 +12,11 @@
 //     with the velocity after the impact instead: x += (s/w) drift (v_after - v). Along the normal
 //     that is s -> beta s.
 //  2. Where beta = 0, the particle stays on the wall. Pressed to it, it begins the next drift
-//  there,
-//     which counts as resting: its tangential velocity is 0, unless alpha is 1. (Any alpha < 1
-//     makes it 0 in the limit, where a resting particle meets the wall again and again in no time.)
+//     there, which counts as resting: its tangential velocity is 0, unless alpha is 1. (Any
+//     alpha < 1 makes it 0 in the limit, where a resting particle meets the wall again and again
+//     in no time.)
 //  3. Pulled off, it does not cross the wall, and is free.
+//
 // A method of high order has stages that step back, with a negative drift. They meet no wall by
 // either rule: where they lead is not a place that the particle comes to. (If they did, one that is
 // pulled off would be stepped back onto the wall, and stopped there, each step again: it would
@@ -36,8 +37,8 @@ struct Motion {
   Vec2 position, velocity;
 };
 
-/// After the wall, if `behind` has not (n.x > offset). `drift`: length of the drift that ends
-/// there, s, not negative.
+/// What the wall makes of a particle at `behind`, for which not (n.x > offset). `drift`: length of
+/// the drift that ends there, s, not negative.
 Motion after_wall(const Wall& wall, double drift, const Motion& behind);
 
 /// True if one of them has another contact than the listing's.

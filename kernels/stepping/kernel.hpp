@@ -1,6 +1,6 @@
-// What a kernel owes. It says of a problem why it cannot step it, or how it will: a plan, which also
-// makes the stepper and holds whatever was found out on the way (shape, axis ...), so that nothing
-// is searched twice and no plan meets another problem. kernels/plan/ picks one.
+// What a kernel owes. Asked about a problem, it says why it cannot step it, or how it will: a plan,
+// which also makes the stepper and holds whatever was found out on the way (shape, axis ...), so
+// that nothing is searched for twice and no plan meets another problem. kernels/plan/ picks one.
 #pragma once
 
 #include <functional>
@@ -37,7 +37,8 @@ struct Plan {
   std::string walls;                  ///< how many, and how they are met
   std::vector<std::string> left_out;  ///< what this scene does not need and this code does not have
   std::vector<std::string> reasons;   ///< why this kernel, and why not the faster ones
-  /// The kernel, holding the start of the problem that was planned for, which must still be there.
+  /// Makes the kernel at work, at the start of the problem that was planned for, which must still
+  /// exist.
   std::function<std::unique_ptr<Stepper>()> make_stepper;
 };
 
@@ -50,7 +51,8 @@ using Preparation = std::variant<Plan, Refusal>;
 /// Prepares another kernel, for one that wraps it.
 using PrepareInside = std::function<Preparation(const Problem&, const KernelRequest&)>;
 
-/// What a stepper takes beside the problem, bytes, for each particle and each entry of their rows.
+/// Bytes that a stepper takes beside the problem, for each particle and for each entry of the
+/// neighbour list.
 struct StepperMemory {
   double a_particle;
   double an_entry;
@@ -60,9 +62,9 @@ struct StepperMemory {
 struct KernelEntry {
   std::string name;
   std::string description;
-  bool automatic = true;               ///< may `auto` pick it
-  bool has_listings_bits = false;      ///< it claims the oracle's bits
-  bool wraps = false;                  ///< it holds another kernel; its memory comes on top
+  bool automatic = true;           ///< may `auto` pick it
+  bool has_listings_bits = false;  ///< it claims the oracle's bits
+  bool wraps = false;              ///< it holds another kernel; its memory comes on top
   std::vector<Contact> contacts = {Contact::listing, Contact::resolved};  ///< that it can do
   StepperMemory memory;
   std::function<Preparation(const Problem&, const KernelRequest&, const PrepareInside&)> prepare;

@@ -1,4 +1,5 @@
-// Which form of the law a problem needs: what the kernels are compiled for.
+// Which form of the pair law a problem needs. Kernels are compiled for each form, so that no step
+// asks which exponents the law has.
 #pragma once
 
 #include <string>
@@ -8,6 +9,7 @@
 
 namespace bounce {
 
+/// By the exponents (p, q): three pairs, any odd ones, any.
 enum class LawForm { three_five, seven_thirteen, two_four, odd, general };
 LawForm law_form(PairLaw law);
 

@@ -1,13 +1,13 @@
-// What the vector kernels share: the walk through a method's stages, the stage that
-// first-same-as-last methods hold over, and the snapshots. A kernel adds its data layout and its
-// passes.
+// What the kernels on vectors share: which stages a step takes, the stage that a method holds over
+// from step to step (method.hpp), and snapshots. A kernel adds how its particles lie in memory, and
+// how it takes one stage of them all.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/model/method.hpp"
+#include "kernels/model/problem.hpp"
 #include "kernels/stepping/stepper.hpp"
 
 namespace bounce {

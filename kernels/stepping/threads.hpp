@@ -11,21 +11,23 @@
 
 namespace bounce {
 
-/// The number of threads where nobody asks for one: what OpenMP has been told (OMP_NUM_THREADS,
+/// The number of threads where nobody asks for one: what OpenMP is set to (OMP_NUM_THREADS,
 /// omp_set_num_threads), and no more than the processors this process may run on.
 int default_threads();
 
-/// From here on a second thread saves more than meeting it costs, whatever the kernel and however
-/// far apart the cores are.
+/// Particles from which on a kernel whose threads meet once a stage takes more than one thread by
+/// itself: with fewer, meeting may cost more than a second thread saves.
 inline constexpr std::size_t particles_worth_a_team = 20000;
 
 /// Calls work(i) for i = 0 .. count - 1 on that many threads (0: default_threads()), each i as soon
-/// as a thread is free. If a call throws, no further one is begun, and what it threw comes out.
+/// as a thread is free. If a call throws, no further one is begun, and what it threw reaches the
+/// caller.
 template <class Work>
 void parallel_for(std::size_t count, int threads, const Work& work) {
   std::exception_ptr failure;
   std::atomic<bool> failed{false};
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads == 0 ? default_threads() : threads)
+#pragma omp parallel for schedule(dynamic, 1) \
+    num_threads(threads == 0 ? default_threads() : threads)
   for (std::size_t i = 0; i < count; ++i) {
     if (failed.load()) continue;
     try {

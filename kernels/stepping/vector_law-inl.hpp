@@ -1,5 +1,5 @@
-// The pair law on vectors: F/R = P(u) (H Q(u) - G) with u = 1/R^2, P = u^((p+1)/2), Q =
-// u^((q-p)/2). One type a form of the law; the kernels are compiled for the type the scene needs.
+// The pair law on vectors: with u = 1/R^2, F/R = P (H Q - G), P = u^((p+1)/2), Q = u^((q-p)/2).
+// There is one type for each form of the law (law_form.hpp), and kernels are compiled for each.
 #if defined(BOUNCE_VECTOR_LAW_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_VECTOR_LAW_INL_HPP
 #undef BOUNCE_VECTOR_LAW_INL_HPP

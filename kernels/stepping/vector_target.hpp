@@ -10,7 +10,7 @@
 
 namespace bounce {
 
-/// Vector instruction sets a kernel can be told to use.
+/// Vector instruction sets that a kernel can use.
 enum class VectorTarget { none, avx2, avx512 };
 std::string_view name_of(VectorTarget target);
 
@@ -24,7 +24,7 @@ std::vector<VectorTarget> available_vectors();
 
 }  // namespace bounce
 
-/// `function` as compiled for a target other than none. For the last section of a file that includes
-/// foreach_target.h (HWY_ONCE).
+/// `function` as compiled for a target other than none. For the last section of a file that
+/// includes foreach_target.h (HWY_ONCE).
 #define BOUNCE_COMPILED_FOR(target, function) \
   ((target) == VectorTarget::avx512 ? &N_AVX3::function : &N_AVX2::function)

@@ -1,18 +1,20 @@
-// The wall rules on vectors (wall_rule.hpp): a particle with not (n.x > offset) is mirrored, its
-// tangential velocity multiplied by alpha, its normal velocity by beta; or, where the contact is
-// resolved, given back the part of the drift that it spent behind the wall. Not-a-number is not
-// mirrored.
+// The wall rules on vectors; wall_rule.hpp has them for one particle, and says why they are so. A
+// particle with not (n.x > offset) is mirrored, its tangential velocity multiplied by alpha, its
+// normal velocity by beta; or, where the contact is resolved, given back the part of the drift that
+// it spent behind the wall. Not-a-number is not mirrored.
 //
-// After a sweep each wall is looked at in one more pass over what was moved, while that is in L1;
-// for a floor a kernel may do with a minimum taken within its sweep.
-// Only a vector with a particle behind a wall is reflected, out of line. So alpha, beta and the rule
-// cost nothing while nothing touches, and no kernel is compiled for its walls. The resolved rule
-// knows where a particle rests by its state alone: on the wall, without velocity. It needs no memory
-// of contacts, so a state is still positions and velocities, and restarts as such.
+// Why it is built so
+//  1. Walls come after a sweep, each in one more pass over what was just moved, while that is in
+//     L1. For a level floor the least height is enough, which a kernel may find within its sweep.
+//  2. Only a vector with a particle behind a wall is reflected, out of line. So alpha, beta and the
+//     rule cost nothing while nothing touches, and no kernel is compiled for its walls.
+//  3. The resolved rule sees from the state alone whether a particle rests: it began its drift on
+//     the wall. So a state is still positions and velocities, and no contacts have to be remembered
+//     from step to step or saved.
 //
 // Not taken: the test of each particle within the sweep, compiled for the kind of walls (two walls
-// cost more, and there are three forms to compile); a proof
-// for how many steps nobody can reach a wall, and no test in these (verify/README.md, "tried").
+// cost more, and there are three forms to compile); a proof for how many steps nobody can reach a
+// wall, and no test in these ("Tried and taken out" in verify/README.md has what they gained).
 #if defined(BOUNCE_VECTOR_WALLS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BOUNCE_VECTOR_WALLS_INL_HPP
 #undef BOUNCE_VECTOR_WALLS_INL_HPP
@@ -81,7 +83,7 @@ HWY_INLINE WallAnswer<V> resolved_answer(const WallVectors<V>& wall, V distance,
           hn::Mul(hn::Mul(behind, drift), hn::Sub(alpha, one))};
 }
 
-/// What a vector of particles at (x, y) does at one wall, after a drift of `drift` (s).
+/// What one wall does to a vector of particles at (x, y), after a drift of `drift` (s).
 template <class D, class V = hn::Vec<D>>
 HWY_NOINLINE void reflect(D d, const Wall& wall, V drift, double* x, double* y, double* vx,
                           double* vy) {
@@ -97,16 +99,16 @@ HWY_NOINLINE void reflect(D d, const Wall& wall, V drift, double* x, double* y, 
   const V tx = hn::NegMulAdd(normal_speed, w.nx, ux);
   const V ty = hn::NegMulAdd(normal_speed, w.ny, uy);
   WallAnswer<V> answer = mirror_answer(w, distance);
-  V rest_x = px, rest_y = py;
+  V from_x = px, from_y = py;
   if (wall.contact != Contact::listing) {
     const V moved = hn::Mul(drift, normal_speed), size = hn::Add(hn::Abs(px), hn::Abs(py));
     answer = resolved_answer(w, distance, moved, drift, size);
-    rest_x = hn::MulAdd(answer.back, tx, px);
-    rest_y = hn::MulAdd(answer.back, ty, py);
+    from_x = hn::MulAdd(answer.back, tx, px);
+    from_y = hn::MulAdd(answer.back, ty, py);
   }
   const V after = hn::Mul(w.beta, normal_speed);
-  const V new_x = hn::NegMulAdd(answer.lift, w.nx, rest_x);
-  const V new_y = hn::NegMulAdd(answer.lift, w.ny, rest_y);
+  const V new_x = hn::NegMulAdd(answer.lift, w.nx, from_x);
+  const V new_y = hn::NegMulAdd(answer.lift, w.ny, from_y);
   const V new_vx = hn::MulAdd(answer.alpha, tx, hn::Mul(after, w.nx));
   const V new_vy = hn::MulAdd(answer.alpha, ty, hn::Mul(after, w.ny));
   hn::Store(hn::IfThenElse(clear, px, new_x), d, x);
@@ -176,7 +178,7 @@ HWY_INLINE bool all_in_front(D d, const std::vector<Wall>& walls, size_t vectors
   return true;
 }
 
-/// One vector of particles at all walls, one wall after another, if one of them is behind one.
+/// One vector of particles at all walls, one wall after another, if any of them is behind any wall.
 template <class D>
 HWY_INLINE void meet_walls(D d, const std::vector<Wall>& walls, hn::Vec<D> drift, double* x,
                            double* y, double* vx, double* vy) {
