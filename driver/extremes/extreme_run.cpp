@@ -281,7 +281,7 @@ void compare_with_like(const ExtremeRow& row, const ExtremeRow& like, const fs::
       "; a particle ends up to {:.2g} cm off {}, the centre {:.2g} cm of the {:.3g} cm that it "
       "moved; "
       "roundings of the positions explain {:.2g} cm (independent) to {:.2g} cm (of one sign)",
-      difference, like.name, lost, moved, rounding.walk(), rounding.worst);
+      difference, like.name, lost, moved, rounding.likely(), rounding.worst);
   if (!(difference <= rounding.worst)) {
     result.detail += ": TOO FAR";
     result.as_expected = false;

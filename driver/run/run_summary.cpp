@@ -57,7 +57,7 @@ std::string ledger_text(const RunFindings& findings) {
       text += fault_text(line, findings.time_step);
     } else {
       text += fmt::format("        {:<22} {:>9.1e} {} ({:.1e}, {:.1e})\n", line.name, line.residual,
-                          line.unit, line.walk, line.allowed);
+                          line.unit, line.likely, line.allowed);
     }
   }
   if (ledger.missed + ledger.otherwise > 0) {
@@ -71,7 +71,7 @@ Json vector_json(Vec2 v) { return {v.x, v.y}; }
 
 Json line_json(const LedgerLine& line) {
   Json json{{"name", line.name},          {"unit", line.unit},       {"residual", line.residual},
-            {"rounding_walk", line.walk}, {"allowed", line.allowed}, {"closes", line.closes()}};
+            {"rounding_walk", line.likely}, {"allowed", line.allowed}, {"closes", line.closes()}};
   if (!line.closes()) json["first_step"] = line.fault_step;
   return json;
 }

@@ -1,19 +1,18 @@
-// Are the kernels right? Each is run beside the oracle on a whole scene and compared.
+// Are the kernels right? Each is run beside the oracle, the paper's program in C++, on a whole
+// scene and compared.
 //
 // What is demanded, and why
 //  - `strict` does the listing's operations in the listing's order: the same bits, at every step.
 //  - The fast kernels round otherwise. At the first step at which a bit differs, velocities may be
-//  off
-//    by the rounding of a kick and positions by one ULP of the largest coordinate.
+//    off by the rounding of a kick and positions by one ULP of the largest coordinate.
 //  - From there on a kernel that only rounds otherwise does to the ball what a disturbance of one
-//  ULP
-//    does. So six copies of the ball, disturbed by one ULP at the start, are run along (with
+//    ULP does. So six copies of the ball, disturbed by one ULP at the start, are run along (with
 //    `strict`, whose bits are the oracle's), and a kernel may be off by ten times what any copy was
 //    off at most so far. Ten, because copies are samples of how far rounding carries, which after
-//    the impact grows exponentially. Six, because a grazing contact goes one way or the other: in
-//    Example 6 the lowest height of the centre has three values, 1.5e-8 and 1.1e-7 cm apart, and of
-//    11 runs, nine of them disturbed, 4 (the oracle's), 5 and 2 came to each; two copies may both
-//    be on the oracle's side.
+//    the impact grows exponentially. Six, because a grazing contact goes one way or the other, and
+//    two copies may both go the oracle's way: in Example 6 the lowest height of the centre has
+//    three values, 1.5e-8 and 1.1e-7 cm apart, and 4, 5 and 2 of 11 runs, the oracle's among the 4,
+//    came to each. (These are bits, the same on every processor.)
 //  - The same for what a person would measure on the whole run: heights, energies, contact.
 #pragma once
 
@@ -29,7 +28,7 @@
 
 namespace bounce {
 
-/// A kernel to be checked: how to make it from a problem.
+/// A kernel to be checked, and how to make it from a problem.
 struct KernelUnderTest {
   std::string name;
   bool same_bits = false;  ///< it claims the oracle's bits

@@ -15,7 +15,7 @@ constexpr std::size_t particles = 360;
 
 using RestSquares = std::array<double, 5>;  // R0^2, cm^2: 11, 12, 22, 23, 33
 
-// The listing's constants over its E = 16000 (MODEL 2).
+// The listing's constants, 1096.64, 16328, 1578.4, 16462.8 and 2148.8, over its E = 16000.
 constexpr RestSquares listing_rest{0.06854, 1.0205, 0.09865, 1.028925, 0.1343};
 
 // Squared distances of neighbours on the exact circles. In long double and rounded once, so that

@@ -1,4 +1,5 @@
-// The reference: the paper's listing in C++, scalar, nine cases, in the listing's order and typing.
+// The oracle: the paper's FORTRAN program in C++, scalar, nine cases, in the listing's order and
+// typing.
 // It shares plain data types with the kernels and nothing else: it makes its own constants, its own
 // neighbours and its own sums. The step itself stands in listing.cpp.
 #pragma once
@@ -17,8 +18,8 @@ namespace bounce {
 /// The listing's program for one scene: three rings of 120, law (3, 5), the listing's scheme; any
 /// radii, E, gravity, time step and walls.
 ///
-/// Constants (MODEL 3): with Constants::single_precision, E, E R0^2, gravity and the time step are
-/// rounded to single precision and widened, as FORTRAN does with literals that have no exponent D.
+/// Constants: with Constants::single_precision, E, E R0^2, gravity and the time step are rounded to
+/// single precision and widened, as FORTRAN does with literals that have no exponent D.
 /// R0^2 is the listing's (Rest::listing) or that of the exact circles (Rest::geometry).
 class Oracle {
  public:

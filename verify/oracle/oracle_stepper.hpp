@@ -1,4 +1,4 @@
-// The oracle as one kernel among the others: `--kernel oracle`.
+// The oracle (oracle.hpp) as one kernel among the others, under the name "oracle".
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace bounce {
 /// the problem's.
 std::vector<KernelEntry> kernels_with_oracle(const Scene& scene);
 
-/// A plan's kernel with its books. The oracle takes its walls from the scene, so the scene is needed
-/// beside the problem.
+/// A plan's kernel with its books. The oracle takes its walls from the scene, so the scene is
+/// needed beside the problem.
 std::unique_ptr<BookingStepper> make_booking_stepper(const Scene& scene, const Problem& problem,
                                                      const Plan& plan);
 

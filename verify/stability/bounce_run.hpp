@@ -1,5 +1,5 @@
-// One bounce from just above a wall until the ball has left it: how long it takes, and how stiff
-// the ball gets on its way.
+// Runs of one bounce, from just above a wall until the ball has left it: how long it takes, and how
+// stiff the ball gets on its way.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@ struct BounceRun {
 };
 
 /// Follows the bounces of problems that differ in numbers alone (see run_trials), each for `steps`
-/// at most. Each is looked at every `look_every` steps; a look costs as much as some 50 steps.
+/// at most. Each is looked at every `look_every` steps; a look costs as much as many steps.
 /// `growth`: what counts as unstable (EnergyJudge).
 std::vector<BounceRun> follow_bounces(std::span<const Problem> problems,
                                       std::span<const std::int64_t> steps, std::int64_t look_every,

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "verify/watch/compensated_sum.hpp"
 #include "verify/stability/vibration.hpp"
+#include "verify/watch/compensated_sum.hpp"
 
 namespace bounce {
 

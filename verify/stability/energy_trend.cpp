@@ -15,13 +15,15 @@ namespace {
 
 constexpr double confidence = 0.975;  // of either side
 
-// Of the line through a random walk of `steps` steps, fitted by least squares, each step of the
-// given variance: 6/5 of variance/steps for many points.
-double walk_slope(double variance, double steps) { return std::sqrt(1.2 * variance / steps); }
+// Standard deviation of the slope of a line that is fitted by least squares to a random walk of
+// `steps` steps, each of the given variance: for many points its square is 6/5 of variance/steps.
+double random_walk_slope(double variance, double steps) {
+  return std::sqrt(1.2 * variance / steps);
+}
 
 }  // namespace
 
-// Both widths together: the scatter about the line knows little of a walk.
+// Both widths together: the scatter about the line shows little of a random walk.
 bool EnergyTrend::any() const { return !(std::abs(slope) <= half_width + rounding); }
 
 EnergyTrend free_flight_trend(const Problem& problem, Stepper& stepper, std::int64_t steps,
@@ -61,8 +63,8 @@ EnergyTrend free_flight_trend(const Problem& problem, Stepper& stepper, std::int
   gsl_fit_linear(times.data(), 1, energies.data(), 1, times.size(), &offset, &trend.slope,
                  &offset_variance, &covariance, &slope_variance, &scatter);
   trend.half_width = gsl_cdf_tdist_Pinv(confidence, batches - 2) * std::sqrt(slope_variance);
-  trend.rounding =
-      gsl_cdf_ugaussian_Pinv(confidence) * walk_slope(variance, static_cast<double>(trend.steps));
+  trend.rounding = gsl_cdf_ugaussian_Pinv(confidence) *
+                   random_walk_slope(variance, static_cast<double>(trend.steps));
   trend.ledger = ledger.report();
   return trend;
 }

@@ -1,5 +1,5 @@
-// Does a method's energy have a trend? A ball in free flight, many steps, and a straight line
-// through what is left of its modified energy.
+// Does a method gain or lose energy in the long run? A ball without walls, many steps, and a
+// straight line through its modified energy, the one that a method conserves (inspection.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace bounce {
 
-/// Slope of the modified energy (inspection.hpp) in free flight, erg a step.
+/// The trend of the modified energy in free flight.
 struct EnergyTrend {
-  double slope = 0.0;
+  double slope = 0.0;       ///< erg a step
   double half_width = 0.0;  ///< of its 95 % confidence interval, from the scatter about the line
   double rounding = 0.0;    ///< 95 %: the slope that a random walk of each step's roundings has
   std::int64_t steps = 0;

@@ -6,20 +6,18 @@
 //     stable and an unstable run, found by bisection until the two are no more than 1 % apart. The
 //     prediction is only where the search begins: both ends are run.
 //  2. Free flight is flight alone: no walls, no gravity, the ball's own velocity taken away. What
-//  is
-//     left scales: E and dt enter as E dt^2.
+//     is left scales: E and dt enter as E dt^2.
 //  3. Each start is disturbed by a millionth of the shortest bond, so that the fastest vibration is
 //     there to grow. With a step that is a part d beyond the edge, leapfrog multiplies it by about
 //     1 + sqrt(8 d) each step: at d = 0.1 % by 10^11 in a hundred periods. So the criterion hardly
-//     matters, which the sweep shows and does not assume.
+//     matters; what another one would change stands in results/stability.md.
 //  4. That holds for small vibrations. In larger ones the bonds' stiffness swings with the
-//  vibration,
-//     and a step that is stable for each state it meets can still pump energy into it: where a
-//     vibration takes three or four steps a period. For leapfrog that is at omega dt = sqrt(3) and
-//     sqrt(2), 0.87 and 0.71 of its limit (Skeel, Zhang, Schlick, SIAM J. Sci. Comput. 18 (1997)
-//     203). EdgeCase::disturbance shows it in flight; a hard impact disturbs enough by itself.
-//     Beyond such a place some steps are stable again: for these cases the lowest edge is sought,
-//     from below.
+//     vibration, and a step that is stable for each state it meets can still pump energy into it:
+//     where a vibration takes three or four steps a period. For leapfrog that is at
+//     omega dt = sqrt(3) and sqrt(2), 0.87 and 0.71 of its limit (Skeel, Zhang, Schlick, SIAM J.
+//     Sci. Comput. 18 (1997) 203). EdgeCase::disturbance shows it in flight; a hard impact disturbs
+//     enough by itself. Beyond such a place some steps are stable again: for these cases the lowest
+//     edge is sought, from below.
 //  5. Two predictions stand beside it. The strict one is the method's limit, the first place at
 //     which any vibration grows, however slowly. The other is for the criterion itself: the first
 //     place at which the fastest vibration, which has one (2 N - 3)th of the energy of a start
@@ -62,10 +60,12 @@ struct EdgeCriterion {
 /// The start's disturbance, in shortest bonds, unless it is what is asked about.
 inline constexpr double edge_disturbance = 1e-6;
 
+/// What the ball has to come through: free flight, or a whole bounce.
 enum class Passage { flight, bounce };
+/// The largest E is sought at the scene's time step, the largest time step at its E.
 enum class Sought { step, elasticity };
 
-/// The largest E is sought at the scene's time step, the largest time step at its E.
+/// One search for an edge.
 struct EdgeCase {
   Scene scene;                   ///< with its method, E, gravity
   std::optional<State> initial;  ///< instead of the scene's own ball

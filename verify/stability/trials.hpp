@@ -1,4 +1,5 @@
-// Many runs to the end or to the first bad look: what a search for an edge is made of.
+// Many runs, each looked at from time to time and followed to its end or to the first state that is
+// not good: what a search for an edge of stability is made of.
 #pragma once
 
 #include <cstdint>

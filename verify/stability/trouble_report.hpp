@@ -1,5 +1,5 @@
-// What a run that has become unstable can tell of it: the two states on either side of the first
-// refused step, the bond in question, the energy, and how far the time step was from the edge.
+// The report on a run that has become unstable: the two states on either side of the first step
+// that was refused, the bond in question, the energy, and how far the time step was from the edge.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Edge {
   double stable_step = 0.0;  ///< s; infinity if nothing vibrates
 };
 
-/// One state, as the report looks at it. NaN and infinity are told as they are.
+/// One state, as the report looks at it. NaN and infinity are reported as they are.
 struct TroubledState {
   double energy = 0.0;       ///< kinetic, bond and gravity, erg
   double ratio = 0.0;        ///< R/R0 of the trouble's bond

@@ -13,9 +13,9 @@
 namespace bounce {
 namespace {
 
-// Rows up to which the dense solver is as quick (1 ms). Lanczos must not be let loose on these:
-// where all vibrations have one frequency or two, as in a ring of four, Spectra 1.0 loses
-// orthogonality and returns a number that is no eigenvalue.
+// Rows up to which the dense solver is as quick. Lanczos must not be used on these: where all
+// vibrations have one frequency or two, as in a ring of four, Spectra 1.0 loses orthogonality and
+// returns a number that is no eigenvalue.
 constexpr Eigen::Index smallest_for_lanczos = 100;
 
 // Position of particle i less that of its neighbour j, cm.

@@ -18,8 +18,8 @@
 //     a copy, by that drift and the walls. The books are those of that state: what the copy's walls
 //     did is booked on a copy of the books.
 //
-// The cost: steps without reflection are taken twice; one with a reflection costs as much as a
-// hundred, most of it for the energy of the whole ball before and after.
+// The cost: steps without reflection are taken twice; one with a reflection costs as much as many
+// of these, most of it for the energy of the whole ball before and after.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// What the ledgers need to know of a state beyond its Sample: the modified energy that a method
-// conserves, how fast and how near the walls the particles are, and how much one step may round.
+// What the ledgers need to know of a state beyond its energies and momenta (Sample): the modified
+// energy that a method conserves, how fast and how near the walls the particles are, and how much
+// one step may round.
 //
 // Modified energy. A step of kicks b dt and drifts c dt follows, but for higher orders of dt, the
 // flow of
@@ -13,8 +14,8 @@
 // or (w dt)^p for a method of order p > 3, whose e, f and h are zero.
 #pragma once
 
-#include "kernels/model/problem.hpp"
 #include "kernels/model/method.hpp"
+#include "kernels/model/problem.hpp"
 #include "verify/watch/monitor.hpp"
 #include "verify/watch/rounding_size.hpp"
 

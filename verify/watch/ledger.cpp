@@ -207,7 +207,7 @@ void Ledger::check_stretch(const Look& now) {
                                                          std::abs(free_energy_.residual) * allowed;
   if (free_energy_.fault_step < 0 && (nearer || !closes)) {
     free_energy_.residual = residual;
-    free_energy_.walk = rounding.walk();
+    free_energy_.likely = rounding.likely();
     free_energy_.allowed = allowed;
   }
   if (!closes && free_energy_.fault_step < 0) free_energy_.fault_step = now.step;
@@ -246,7 +246,7 @@ LedgerReport Ledger::report() const {
     return LedgerLine{name,
                       unit,
                       balance.residual.value(),
-                      balance.rounding.walk(),
+                      balance.rounding.likely(),
                       balance.rounding.worst,
                       balance.fault_step};
   };
@@ -257,7 +257,7 @@ LedgerReport Ledger::report() const {
     report.lines.push_back(
         {"energy booked", "erg",
          books.energy - start_->books.energy - books.energy_given() - books.integrator.value(),
-         books.energy_rounding.walk(), books.energy_rounding.worst, booked_fault_});
+         books.energy_rounding.likely(), books.energy_rounding.worst, booked_fault_});
     report.books = books.walls;
     report.missed = books.missed;
     report.otherwise = books.otherwise;

@@ -40,8 +40,8 @@ struct LedgerLine {
   std::string name;       ///< "momentum x", ...
   std::string unit;       ///< cgs, unit masses
   double residual = 0.0;  ///< left over
-  double walk = 0.0;      ///< that independent roundings explain, one standard deviation
-  double allowed = 0.0;   ///< that roundings of one sign, and terms left out, explain at most
+  double likely = 0.0;    ///< what independent roundings explain, one standard deviation
+  double allowed = 0.0;   ///< what roundings of one sign, and terms left out, explain at most
   std::int64_t fault_step = -1;  ///< of the sample at which it first did not close; -1: it closes
 
   [[nodiscard]] bool closes() const { return fault_step < 0; }
@@ -86,8 +86,7 @@ class Ledger {
 
   /// The next sample; the first is the start. `sample` is measure()'s of `state`; `books` those of
   /// the stepper at this step. Throws std::invalid_argument for a step that is not after the last
-  /// one, or for
-  /// missing books in the full form.
+  /// one, or for missing books in the full form.
   void add(std::int64_t step, const State& state, const Sample& sample,
            const WallBooks* books = nullptr);
 

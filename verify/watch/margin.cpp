@@ -9,7 +9,8 @@
 namespace bounce {
 namespace {
 
-// Lanczos takes 3 ms on the paper's ball and a second on the largest it is let loose on.
+// Lanczos takes some milliseconds on the paper's ball and about a second on the largest that it is
+// used for (lanczos_particles).
 std::size_t looks_to_keep(std::size_t particles) {
   constexpr std::size_t most = 8;
   return std::clamp<std::size_t>(most * small_ball / std::max<std::size_t>(particles, 1), 1, most);

@@ -1,4 +1,4 @@
-// How near a run comes to the edge of stability.
+// How near a run comes to the edge of stability: its time step as a part of the largest stable one.
 //
 // The edge moves with the ball: a bond of the law (3, 5) that is pressed to half its length is 136
 // times as stiff, and its stable step a twelfth. So each look at a run renews the bound of the

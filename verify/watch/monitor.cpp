@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/watch/compensated_sum.hpp"
 #include "kernels/model/powers.hpp"
+#include "verify/watch/compensated_sum.hpp"
 
 namespace bounce {
 namespace {
@@ -20,7 +20,6 @@ constexpr double rounding_share = 1e-9;
 
 // How often the elastic energy of the start may come and go through the method's own error: the
 // swing of a vibration at 82 % of the edge of stability, or of all of them, stiff and soft, nearer.
-// Example 2 gains 3 times its elastic energy at the last stable step, Example 7 5 times.
 constexpr double elastic_swing = 10.0;
 
 // True if `value` should replace `smallest`; a NaN replaces any number and stays.

@@ -1,5 +1,5 @@
-// What a run is watched by: energies, momenta and shape of one state, and the check that stops a
-// run that has become unstable.
+// What a run is watched by: energies, momenta and place of one state (a Sample), and the check that
+// stops a run that has become unstable (a Watch).
 #pragma once
 
 #include <cstdint>

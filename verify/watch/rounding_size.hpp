@@ -8,7 +8,7 @@ namespace bounce {
 /// Greatest relative error of one rounding to nearest, 2^-53.
 inline constexpr double unit_roundoff = 0x1p-53;
 
-/// The size that roundings explain: `worst` if all of them have one sign, `walk()` (one standard
+/// The size that roundings explain: `worst` if all of them have one sign, `likely()` (one standard
 /// deviation) if they are independent. One rounding of a number of size a is off by at most
 /// 2^-53 a, and, anywhere within that, has the variance (2^-53 a)^2 / 3.
 struct RoundingSize {
@@ -26,7 +26,7 @@ struct RoundingSize {
     worst += times * other.worst;
     variance += times * other.variance;
   }
-  [[nodiscard]] double walk() const { return std::sqrt(variance); }
+  [[nodiscard]] double likely() const { return std::sqrt(variance); }
 
  private:
   static constexpr double third = 1.0 / 3.0;  // no division: ledgers add thousands a sample

@@ -48,7 +48,7 @@ TEST(EnergyTrend, NoMethodHasOne) {
                       trend.half_width, trend.rounding);
           for (const LedgerLine& line : trend.ledger.lines) {
             std::printf("  %s: %.2e, walk %.2e, allowed %.2e %s\n", line.name.c_str(),
-                        line.residual, line.walk, line.allowed, line.unit.c_str());
+                        line.residual, line.likely, line.allowed, line.unit.c_str());
           }
         }
       }

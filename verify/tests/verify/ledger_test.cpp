@@ -40,7 +40,7 @@ const LedgerLine& line(const LedgerReport& report, const std::string& name) {
 std::string print(const LedgerReport& report) {
   std::ostringstream text;
   for (const LedgerLine& l : report.lines) {
-    text << l.name << ": " << l.residual << ", walk " << l.walk << ", allowed " << l.allowed
+    text << l.name << ": " << l.residual << ", walk " << l.likely << ", allowed " << l.allowed
          << ", fault at " << l.fault_step << "\n";
   }
   text << report.missed << " missed, " << report.otherwise << " otherwise";
