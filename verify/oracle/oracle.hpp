@@ -1,7 +1,6 @@
 // The oracle: the paper's FORTRAN program in C++, scalar, nine cases, in the listing's order and
-// typing.
-// It shares plain data types with the kernels and nothing else: it makes its own constants, its own
-// neighbours and its own sums. The step itself stands in listing.cpp.
+// typing. It shares plain data types with the kernels and nothing else: it makes its own constants,
+// its own neighbours and its own sums. The step itself stands in listing.cpp.
 #pragma once
 
 #include <cstdint>
