@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "kernels/model/method.hpp"
+#include "verify/stability/bounce_run.hpp"
+#include "verify/watch/monitor.hpp"
 #include "verify/vibrations/stability_limit.hpp"
 
 namespace bounce {
@@ -19,6 +21,25 @@ std::string part_text(double part) {
 
 std::string source_of(bool exact) { return exact ? "" : ", by a bound: some per cent too careful"; }
 
+// What could pass through something within a step.
+void refuse_long_strides(const SceneFile& file, const Problem& problem) {
+  Sample start = measure(problem, problem.initial);
+  start.approach = std::max(start.approach, meeting_speed(problem));
+  const Stride stride = stride_of(problem, start);
+  const double part = std::max(stride.bond, stride.wall);
+  if (!(part > 1.0)) return;
+  throw file.explain(SceneError(
+      "time.step", fmt::format("{}", file.scene().time.step),
+      fmt::format(
+          "at most {:.2g} s: {} moves by {:.3g} times the distance between neighbours in a "
+          "step, and could pass through unnoticed; --force runs it all the same",
+          problem.step / part,
+          stride.bond > stride.wall
+              ? "one end of a bond"
+              : fmt::format("a particle that comes to a wall at {:.3g} cm/s", start.approach),
+          part)));
+}
+
 }  // namespace
 
 std::optional<StepCheck> check_step(const Problem& problem) {
@@ -30,6 +51,7 @@ std::optional<StepCheck> check_step(const Problem& problem) {
 
 void refuse_unstable_step(const SceneFile& file, const Problem& problem,
                           const std::optional<StepCheck>& check) {
+  refuse_long_strides(file, problem);
   if (!check) {
     throw file.explain(
         SceneError("initial state", "a bond without a finite stiffness",

@@ -6,8 +6,8 @@
 
 #include "driver/scene/scene_file.hpp"
 #include "kernels/model/problem.hpp"
-#include "verify/watch/margin.hpp"
 #include "verify/vibrations/spectrum.hpp"
+#include "verify/watch/margin.hpp"
 
 namespace bounce {
 
@@ -28,7 +28,9 @@ inline constexpr double part_to_warn_of = 0.5;
 std::optional<StepCheck> check_step(const Problem& problem);
 
 /// Throws InputError naming key, value, what is allowed and where the value came from, if the start
-/// has no finite stiffness or the step is beyond the stable one.
+/// has no finite stiffness, the step is beyond the stable one, or something moves so fast, at the
+/// start or when the ball will meet a wall, that it could pass through a neighbour or the wall within
+/// a step.
 void refuse_unstable_step(const SceneFile& file, const Problem& problem,
                           const std::optional<StepCheck>& check);
 

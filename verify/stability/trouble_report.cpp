@@ -51,8 +51,9 @@ TroubledState look_at(const Problem& problem, const Trouble& trouble,
   return seen;
 }
 
-// The decimal number with two digits below the value, as it would be typed.
+// The decimal number with two digits not above the value, but for rounding, as it would be typed.
 double two_digits_down(double value) {
+  value *= 1.0 + 1e-12;  // two digits already stay as they are
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1e", std::floor(value / unit) * unit);
@@ -76,7 +77,7 @@ TroubleReport report_trouble(const Problem& problem, const Trouble& trouble, con
     if (report.before->edge) smallest = std::min(smallest, report.before->edge->stable_step);
   }
   if (smallest > 0.0 && std::isfinite(smallest)) {
-    report.stable_step = two_digits_down(step_safety * smallest);
+    report.stable_step = two_digits_down(std::min(step_safety * smallest, 0.5 * problem.step));
   }
   return report;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/model/method.hpp"
 #include "kernels/model/powers.hpp"
 #include "verify/watch/compensated_sum.hpp"
 
@@ -27,6 +28,11 @@ bool is_smaller(double value, double smallest) {
   return !(value >= smallest) && !std::isnan(smallest);
 }
 
+// The larger of both; a NaN stays.
+void raise(double& largest, double value) {
+  if (!(value <= largest) && !std::isnan(largest)) largest = value;
+}
+
 double squared_distance(const State& s, std::size_t i, std::size_t j) {
   const double dx = s.x[i] - s.x[j];
   const double dy = s.y[i] - s.y[j];
@@ -37,6 +43,7 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   const PotentialOf potential_of(problem.law);
   CompensatedSum energy;
   double smallest = std::numeric_limits<double>::infinity();  // (R/R0)^2
+  double fastest = 0.0;                                       // (v/R0)^2
   std::vector<double> per_rest_squared;                       // a division a class, not a bond
   for (const BondClass& bond : problem.classes) {
     per_rest_squared.push_back(1.0 / (bond.rest * bond.rest));
@@ -44,6 +51,8 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   problem.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
     const double r2 = squared_distance(state, i, j);
     energy.add(potential_of(problem.classes[c], r2));
+    const double ux = state.vx[i] - state.vx[j], uy = state.vy[i] - state.vy[j];
+    raise(fastest, (ux * ux + uy * uy) * per_rest_squared[c]);
     const double ratio = r2 * per_rest_squared[c];
     if (is_smaller(ratio, smallest)) {
       smallest = ratio;
@@ -53,6 +62,7 @@ void measure_bonds(const Problem& problem, const State& state, Sample& sample) {
   });
   sample.bond = energy.value();
   sample.smallest_ratio = std::sqrt(smallest);
+  sample.fastest_bond = std::sqrt(fastest);
 }
 
 void measure_motion(const State& s, Sample& sample) {
@@ -87,6 +97,9 @@ void measure_surroundings(const Problem& problem, const State& s, Sample& sample
           return !(wall_distance(wall, s.x[i], s.y[i]) >= contact_distance);
         });
     if (touches) ++sample.on_wall;
+    for (const Wall& wall : problem.walls) {
+      raise(sample.approach, -(wall.normal.x * s.vx[i] + wall.normal.y * s.vy[i]));
+    }
   }
   sample.gravity = gravity.value();
   sample.lowest = lowest;
@@ -104,6 +117,30 @@ double rest_bond_energy(const Problem& problem) {
     energy.add(0.5 * entries[c] * potential(problem.law, bond, bond.rest * bond.rest));
   }
   return energy.value();
+}
+
+// The least gravity energy -g.x of a unit mass in front of all walls, erg; minus infinity if it can
+// fall without end. Where -g = a n + b m with a, b >= 0 and two walls n.x >= c, m.x >= d, -g.x is at
+// least a c + b d; one wall across gravity is the same with b = 0.
+double lowest_gravity_energy(const Problem& problem) {
+  const Vec2 up{-problem.gravity.x, -problem.gravity.y};
+  const auto cross = [](Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; };
+  if (up.x == 0.0 && up.y == 0.0) return 0.0;
+  double least = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < problem.walls.size(); ++i) {
+    const Wall& one = problem.walls[i];
+    const double along = up.x * one.normal.x + up.y * one.normal.y;
+    if (along > 0.0 && cross(one.normal, up) == 0.0) least = std::max(least, along * one.offset);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Wall& other = problem.walls[j];
+      const double area = cross(one.normal, other.normal);
+      const double a = cross(up, other.normal) / area, b = cross(one.normal, up) / area;
+      if (a >= 0.0 && b >= 0.0 && std::isfinite(a) && std::isfinite(b)) {
+        least = std::max(least, a * one.offset + b * other.offset);
+      }
+    }
+  }
+  return least;
 }
 
 std::string print(double value) {
@@ -173,6 +210,24 @@ std::optional<Trouble> non_finite_number(const Problem& problem, const State& s)
   return std::nullopt;
 }
 
+// Where something may pass through a neighbour or a wall within a step: of the bond that changes most
+// or of the particle that is fastest.
+std::optional<Trouble> too_fast(const Problem& problem, const State& state, const Sample& sample) {
+  const Stride stride = stride_of(problem, sample);
+  if (!(stride.bond > 1.0) && !(stride.wall > 1.0)) return std::nullopt;
+  const auto speed = [&](std::size_t i) { return std::hypot(state.vx[i], state.vy[i]); };
+  std::size_t fastest = 0;
+  for (std::size_t i = 1; i < state.size(); ++i) {
+    if (speed(i) > speed(fastest)) fastest = i;
+  }
+  const Tightest bond = tightest_bond(problem, state, fastest);
+  return trouble_at(
+      "particle " + std::to_string(fastest + 1) + " moves by " +
+          print(speed(fastest) * problem.step) + " cm in a step, so that it may pass through " +
+          (stride.bond > 1.0 ? "a neighbour" : "a wall") + " unnoticed (a smaller time step helps)",
+      static_cast<std::int64_t>(fastest), bond.partner, bond.ratio);
+}
+
 }  // namespace
 
 Sample measure(const Problem& problem, const State& state) {
@@ -188,22 +243,34 @@ Watch::Watch(const Problem& problem, const State& start)
       start_(measure(problem, start)),
       motion_(start_.kinetic + elastic_swing * (start_.bond - rest_bond_energy(problem))),
       floor_(rounding_share * (start_.kinetic + std::abs(start_.bond) + std::abs(start_.gravity))) {
+  const double lowest = lowest_gravity_energy(problem) * static_cast<double>(start.size());
+  if (std::isfinite(lowest)) fall_ = std::max(0.0, start_.gravity - lowest);
 }
 
-double Watch::allowed_gain() const { return std::max(motion_ + fall_, floor_); }
+double Watch::allowed_gain(double fall) const { return std::max(motion_ + fall, floor_); }
+
+Stride stride_of(const Problem& problem, const Sample& sample) {
+  double drift = 0.0, shortest = std::numeric_limits<double>::infinity();
+  for (const Stage& stage : problem.method->stages) {
+    drift = std::max(drift, std::abs(stage.drift * problem.step));
+  }
+  for (const BondClass& bond : problem.classes) shortest = std::min(shortest, bond.rest);
+  return {sample.fastest_bond * drift, sample.approach * drift / shortest};
+}
 
 std::optional<Trouble> Watch::check(const State& state, const Sample& sample) const {
   if (auto trouble = non_finite_number(*problem_, state)) return trouble;
+  if (auto trouble = too_fast(*problem_, state, sample)) return trouble;
   const double gain = sample.total() - start_.total();
-  if (std::isfinite(gain) && gain <= allowed_gain()) return std::nullopt;
+  const double allowed = allowed_gain(std::max(fall_, start_.gravity - sample.gravity));
+  if (std::isfinite(gain) && gain <= allowed) return std::nullopt;
   if (!std::isfinite(gain)) {
     return trouble_at(
         "energy of particle " + std::to_string(sample.ratio_first + 1) + "'s bonds is not finite",
         sample.ratio_first, sample.ratio_second, sample.smallest_ratio);
   }
   const Strained bond = most_strained(*problem_, state);
-  return trouble_at("energy jumped by " + print(gain) + " erg, more than the " +
-                        print(allowed_gain()) +
+  return trouble_at("energy jumped by " + print(gain) + " erg, more than the " + print(allowed) +
                         " erg that start and fall account for (a smaller time step may help); most "
                         "of the bonds' energy is in one",
                     bond.first, bond.second, bond.ratio);

@@ -217,5 +217,74 @@ TEST_F(DriverStepTest, StabilityIsPredicted) {
   EXPECT_NE(err().find("--predict"), std::string::npos) << err();
 }
 
+// A ball of four that bounces elastically: whether it counts as unstable is a matter of its motion,
+// not of how often one looks.
+TEST_F(DriverStepTest, InstabilityIsNoMatterOfTheMonitor) {
+  std::ofstream(folder_ / "four.toml")
+      << "[ball]\nradii = [1.0]\nper_ring = 4\ncentre = [0.0, 2.0]\n"
+         "rounding = \"none\"\n[law]\nelasticity = 1000.0\n"
+         "rest = \"geometry\"\n[gravity]\nacceleration = [0.0, -98.0]\n"
+         "[[wall]]\nalpha = 1.0\nbeta = -1.0\n"
+         "[time]\nstep = 1e-3\nend = 1.0\n";
+  std::string hash;
+  for (const char* every : {"0.5", "0.25", "0.1", "0.01", "0.001"}) {
+    ASSERT_EQ(run({"run", "four.toml", "--force", "--quiet", "--out", "r", "--set",
+                   std::string("output.monitor_every=") + every}),
+              0)
+        << every << "\n"
+        << err();
+    const std::string found = entry(folder_ / "r/run.json", "state_hash");
+    EXPECT_TRUE(hash.empty() || found == hash) << every;
+    hash = found;
+  }
+}
+
+// 20 cm a step, through the wall and out again.
+TEST_F(DriverStepTest, WhatCouldPassThroughAWallIsRefusedAndNoticed) {
+  const Words words{"run",   "example-2",
+                    "--out", "r",
+                    "--set", "ball.velocity=[0.0, -2e5]",
+                    "--set", "time.method=leapfrog",
+                    "--set", "time.step=1e-4"};
+  EXPECT_EQ(run(words), 2) << out();
+  EXPECT_NE(err().find("time.step = 0.0001: allowed is at most 1.3e-06 s"), std::string::npos)
+      << err();
+  Words forced = words;
+  forced.emplace_back("--force");
+  EXPECT_EQ(run(forced), 3) << out();
+  EXPECT_NE(err().find("may pass through a wall unnoticed"), std::string::npos) << err();
+}
+
+// It falls 1000 cm: at the start it is at rest, at the wall it would move by 1.7 neighbours a step.
+TEST_F(DriverStepTest, TheSpeedAtTheWallCounts) {
+  EXPECT_EQ(run({"run", "example-2", "--out", "r", "--set", "ball.centre=[0.0, 1007.0]", "--set",
+                 "gravity.acceleration=[0.0, -1000.0]", "--set", "time.method=leapfrog", "--set",
+                 "time.step=3e-4"}),
+            2)
+      << out();
+  EXPECT_NE(err().find("comes to a wall at 1.41e+03 cm/s moves by 1.62 times"), std::string::npos)
+      << err();
+}
+
+// A step that fails proposes at most half of it, so who follows the advice comes to one that does.
+TEST_F(DriverStepTest, FollowingTheAdviceEnds) {
+  std::string step = "2e-4";
+  for (int tries = 0; tries < 8; ++tries) {
+    const int code = run({"run", "example-2", "--force", "--quiet", "--out", "r", "--set",
+                          "ball.velocity=[0.0, -1000.0]", "--set", "wall.contact=resolved", "--set",
+                          "time.method=leapfrog", "--set", "time.step=" + step, "--t-end", "0.1"});
+    if (code == 0) {
+      EXPECT_GT(tries, 0) << "it was to fail at first";
+      return;
+    }
+    ASSERT_EQ(code, 3) << err();
+    const double advised = number_after(err(), "time.step=");
+    ASSERT_GT(advised, 0.0) << err();
+    ASSERT_LE(advised, 0.5 * std::stod(step) * (1.0 + 1e-12)) << err();
+    step = std::to_string(advised * 1e9) + "e-9";
+  }
+  FAIL() << "eight times no step that does";
+}
+
 }  // namespace
 }  // namespace bounce
