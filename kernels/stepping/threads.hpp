@@ -33,7 +33,7 @@ void parallel_for(std::size_t count, int threads, const Work& work) {
     try {
       work(i);
     } catch (...) {
-#pragma omp critical(bounce_parallel_for)
+      // (The first one alone stores it, so no lock is needed; the loop's end makes it visible.)
       if (!failed.exchange(true)) failure = std::current_exception();
     }
   }
