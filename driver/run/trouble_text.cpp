@@ -1,11 +1,13 @@
 #include "driver/run/trouble_text.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "driver/world/input_error.hpp"
 #include "driver/world/shell_word.hpp"
 
 namespace bounce {
@@ -33,7 +35,7 @@ std::string headline(const RunRecord& record) {
   if (trouble.bond_first >= 0 && lacks("bond ")) {
     text += fmt::format("; bond {}-{}", trouble.bond_first + 1, trouble.bond_second + 1);
   }
-  return text;
+  return plain_nan(std::move(text));
 }
 
 std::string part_text(const std::optional<Edge>& edge) {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "driver/world/console.hpp"
+
 namespace bounce {
 namespace {
 
@@ -27,8 +29,7 @@ std::string bar_of(double done) {
 }
 
 void clear_line() {
-  fmt::print(stderr, "\r\033[K");  // to the line's start, clear to its end
-  std::fflush(stderr);
+  print_err("\r\033[K");  // to the line's start, clear to its end
 }
 
 }  // namespace
@@ -49,15 +50,14 @@ void Progress::update(std::int64_t step) {
   const double done = static_cast<double>(step) / static_cast<double>(steps_);
   const double rate =
       static_cast<double>(step) / std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "\r[{}] {:3.0f} %  t = {:.3f} s  {:.3g} steps/s  {} left\033[K", bar_of(done),
-             100.0 * done, static_cast<double>(step) * step_time_, rate,
-             time_left(static_cast<double>(steps_ - step) / rate));
-  std::fflush(stderr);
+  print_err("\r[{}] {:3.0f} %  t = {:.3f} s  {:.3g} steps/s  {} left\033[K", bar_of(done),
+            100.0 * done, static_cast<double>(step) * step_time_, rate,
+            time_left(static_cast<double>(steps_ - step) / rate));
 }
 
 CaseProgress::CaseProgress(bool on, std::size_t cases, double work)
     : on_(on), cases_(cases), work_(work) {
-  if (on_) fmt::print(stderr, "\r[{}]   0 %  0 of {} cases", bar_of(0.0), cases_);
+  if (on_) print_err("\r[{}]   0 %  0 of {} cases", bar_of(0.0), cases_);
 }
 
 CaseProgress::~CaseProgress() {
@@ -68,9 +68,8 @@ void CaseProgress::update(std::size_t cases, double work) {
   if (!on_ || !(work > 0.0)) return;
   const double done = std::min(work / work_, 1.0);
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-  fmt::print(stderr, "\r[{}] {:3.0f} %  {} of {} cases  {} left\033[K", bar_of(done), 100.0 * done,
-             cases, cases_, time_left(seconds * (1.0 - done) / done));
-  std::fflush(stderr);
+  print_err("\r[{}] {:3.0f} %  {} of {} cases  {} left\033[K", bar_of(done), 100.0 * done, cases,
+            cases_, time_left(seconds * (1.0 - done) / done));
 }
 
 }  // namespace bounce
