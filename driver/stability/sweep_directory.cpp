@@ -1,8 +1,5 @@
 #include "driver/stability/sweep_directory.hpp"
 
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -19,26 +16,6 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-// Without a slash at the end, so that a name can be added to it.
-fs::path plain(const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
-
-void check_target(const fs::path& target, bool replace) {
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(target, ignored))) return;
-  if (!replace) {
-    throw InputError(fmt::format("--out {}: exists already; --force replaces it", target.string()));
-  }
-  const bool ours = fs::exists(target / "edge.csv", ignored) && !fs::is_symlink(target, ignored);
-  if (!ours) {
-    throw InputError(
-        fmt::format("--out {}: is not the directory of a sweep; --force replaces nothing else",
-                    target.string()));
-  }
-}
-
 std::string key_of(const std::string& line) {
   std::size_t at = 0;
   for (std::size_t column = 0; column < edge_key_columns; ++column) at = line.find(',', at) + 1;
@@ -48,14 +25,18 @@ std::string key_of(const std::string& line) {
 }  // namespace
 
 SweepDirectory::SweepDirectory(fs::path target, bool replace, const std::string& arguments)
-    : target_(plain(target)), part_(target_), replace_(replace) {
+    : target_(plain_path(target)), part_(target_), replace_(replace) {
   part_ += ".part";
-  check_target(target_, replace);
-  std::error_code error;
-  fs::create_directories(part_, error);
-  if (error) {
-    throw InputError(fmt::format("--out {}: a directory cannot be made there: {}", target_.string(),
-                                 error.message()));
+  check_run_directory(target, replace, marker);
+  try {
+    parents_.make(target_.parent_path());
+    lock_ = std::make_unique<OutputLock>(target_, target.string());
+    check_run_directory(target, replace, marker);  // one may just have been published there
+    check_part();
+    fs::create_directory(part_);
+  } catch (const std::system_error& error) {
+    throw InputError(fmt::format("--out {}: a directory cannot be made there: {}", target.string(),
+                                 error.code().message()));
   }
   open_rows(arguments, replace);
   read_rows();
@@ -65,18 +46,24 @@ SweepDirectory::~SweepDirectory() {
   if (rows_ != nullptr) std::fclose(rows_);
 }
 
+// What is not a stopped sweep's is not gone on with.
+void SweepDirectory::check_part() const {
+  if (!fs::exists(fs::symlink_status(part_))) return;
+  const bool ours = fs::is_directory(fs::symlink_status(part_)) &&
+                    (fs::is_empty(part_) || fs::exists(part_ / "rows.csv"));
+  if (ours) return;
+  throw InputError(fmt::format("--out {}: {} is there, and is no stopped sweep's", target_.string(),
+                               part_.string()));
+}
+
 void SweepDirectory::open_rows(const std::string& arguments, bool replace) {
   const fs::path rows = part_ / "rows.csv";
   rows_ = std::fopen(rows.c_str(), "ab");
   if (rows_ == nullptr) {
     throw InputError(fmt::format("{}: cannot be written: {}", rows.string(), std::strerror(errno)));
   }
-  if (::flock(::fileno(rows_), LOCK_EX | LOCK_NB) != 0) {
-    throw InputError(
-        fmt::format("--out {}: another bounce stability is at work there", target_.string()));
-  }
   const fs::path asked = part_ / "arguments.json";
-  if (fs::exists(asked) && read_text_file(asked.string()) != arguments) {
+  if (fs::exists(asked) && read_bytes(asked.string()) != arguments) {
     if (!replace) {
       throw InputError(
           fmt::format("--out {}: a sweep with other arguments, or of another build, was stopped "
@@ -90,7 +77,7 @@ void SweepDirectory::open_rows(const std::string& arguments, bool replace) {
 
 void SweepDirectory::read_rows() {
   const fs::path rows = part_ / "rows.csv";
-  const std::string text = read_text_file(rows.string());
+  const std::string text = read_bytes(rows.string());  // whatever a crash left
   std::size_t from = 0;
   for (;;) {
     const std::size_t end = text.find('\n', from);
@@ -111,9 +98,8 @@ void SweepDirectory::add(const std::string& line) {
 }
 
 void SweepDirectory::publish() {
-  check_target(target_, replace_);  // it may have appeared meanwhile
-  fs::remove_all(target_);
-  fs::rename(part_, target_);
+  check_run_directory(target_, replace_, marker);  // it may have appeared meanwhile
+  put_in_place(part_, target_);
   fs::remove(target_ / "rows.csv");
   fs::remove(target_ / "arguments.json");
 }

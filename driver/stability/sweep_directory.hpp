@@ -9,12 +9,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "driver/world/run_directory.hpp"
 
 namespace bounce {
 
 class SweepDirectory {
  public:
+  /// The file by which the directory of a sweep is known.
+  static constexpr const char* marker = "edge.csv";
+
   /// Throws InputError if `target` exists and may not be replaced or holds no sweep, if DIR.part is
   /// of a sweep with other arguments (`replace` drops it), or if another process works there.
   SweepDirectory(std::filesystem::path target, bool replace, const std::string& arguments);
@@ -32,12 +38,15 @@ class SweepDirectory {
   void publish();
 
  private:
+  void check_part() const;
   void open_rows(const std::string& arguments, bool replace);
   void read_rows();
   std::filesystem::path target_, part_;
   bool replace_;
   std::FILE* rows_ = nullptr;
   std::map<std::string, std::string> found_;
+  MadeFolders parents_;
+  std::unique_ptr<OutputLock> lock_;
 };
 
 }  // namespace bounce

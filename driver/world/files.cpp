@@ -1,11 +1,15 @@
 #include "driver/world/files.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <random>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,14 +20,106 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-std::runtime_error write_error(const fs::path& path) {
-  return std::runtime_error(
-      fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+std::system_error write_error(const fs::path& path) {
+  return {errno, std::generic_category(), path.string() + ": cannot be written"};
+}
+
+// What is to be done at a path.
+struct Place {
+  enum class Kind { file, stream, standard };
+  Kind kind = Kind::file;
+  fs::path path{};      // of a file: with no link at its end
+  int descriptor = -1;  // of a standard stream
+  bool exists = false;
+  mode_t mode = 0;        // of a file that exists
+  std::string refusal{};  // why nothing is written there, or ""
+};
+
+// Where a link that leads to nothing, as yet, would lead.
+fs::path follow_links(fs::path path) {
+  constexpr int most = 40;  // as the system has it
+  std::error_code error;
+  for (int i = 0; i < most && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path;
+}
+
+Place place_of(const fs::path& path) {
+  struct stat there {};
+  if (::stat(path.c_str(), &there) != 0) {
+    if (errno == ENOENT) return {.path = follow_links(path)};
+    return {.path = path, .refusal = fmt::format("cannot be written: {}", std::strerror(errno))};
+  }
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat ours {};
+    if (::fstat(stream, &ours) == 0 && ours.st_dev == there.st_dev && ours.st_ino == there.st_ino) {
+      return {.kind = Place::Kind::standard, .path = path, .descriptor = stream, .exists = true};
+    }
+  }
+  const auto refused = [&path](const char* what) {
+    return Place{.path = path, .exists = true, .refusal = what};
+  };
+  switch (there.st_mode & S_IFMT) {
+    case S_IFREG: {
+      std::error_code error;
+      const fs::path real = fs::canonical(path, error);
+      return {.path = error ? path : real, .exists = true, .mode = there.st_mode & 0777};
+    }
+    case S_IFCHR:
+    case S_IFIFO:
+      return {.kind = Place::Kind::stream, .path = path, .exists = true};
+    case S_IFDIR:
+      return refused("is a directory; allowed is a file's name");
+    case S_IFBLK:
+      return refused("is a disk; allowed is a file's name");
+    default:
+      return refused("is neither file, device nor pipe; allowed is a file's name");
+  }
+}
+
+// One that takes what is written as it comes.
+OutputFile open_stream(const Place& place) {
+  std::fflush(place.descriptor == STDOUT_FILENO ? stdout : stderr);  // what is before stays before
+  const int descriptor = place.kind == Place::Kind::standard
+                             ? ::fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0)
+                             : ::open(place.path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) throw write_error(place.path);
+  return {descriptor, place.path};
+}
+
+void replace_file(const Place& place, const std::function<void(OutputFile&)>& fill) {
+  int descriptor = -1;
+  const fs::path temporary = make_beside(place.path, "partial", [&](const fs::path& name) {
+    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor >= 0;
+  });
+  try {
+    if (place.exists) static_cast<void>(::fchmod(descriptor, place.mode));  // where there are any
+    OutputFile file(descriptor, place.path);
+    fill(file);
+    file.close();
+    if (::rename(temporary.c_str(), place.path.c_str()) != 0) throw write_error(place.path);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
+}
+
+// Why a text is not UTF-8 in lines, from its byte `at` on; "" if it is, there.
+std::string fault_at(std::string_view text, std::size_t at) {
+  if (text[at] == '\0') return "holds a zero byte; allowed is text in UTF-8";
+  if (text[at] == '\r' && (at + 1 == text.size() || text[at + 1] != '\n')) {
+    return "ends with a carriage return alone; allowed are line feeds, with one before them or not";
+  }
+  if (utf8_length(text, at) == 0) return "is not UTF-8";
+  return "";
 }
 
 }  // namespace
 
-std::string read_text_file(const std::string& path) {
+std::string read_bytes(const std::string& path) {
   const auto refuse = [&path] {
     return InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   };
@@ -39,8 +135,30 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
+std::string read_text_file(const std::string& path) {
+  using namespace std::string_view_literals;
+  std::string text = read_bytes(path);
+  if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv)) {
+    throw InputError(path + ":1: is not UTF-8 but UTF-16; allowed is text in UTF-8");
+  }
+  if (text.starts_with("\xef\xbb\xbf"sv)) text.erase(0, 3);
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size(); at += utf8_length(text, at)) {
+    if (const std::string fault = fault_at(text, at); !fault.empty()) {
+      throw InputError(fmt::format("{}:{}: {}", path, line, fault));
+    }
+    if (text[at] == '\n') ++line;
+  }
+  return text;
+}
+
 OutputFile::OutputFile(fs::path path)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wbxe")) {
+  if (!file_) throw write_error(path_);
+}
+
+OutputFile::OutputFile(int descriptor, fs::path path)
+    : path_(std::move(path)), file_(::fdopen(descriptor, "wb")) {
   if (!file_) throw write_error(path_);
 }
 
@@ -66,17 +184,22 @@ void OutputFile::close() {
 }
 
 void check_output_path(const fs::path& path, bool overwrite) {
+  const auto refuse = [&path](const std::string& why) {
+    throw InputError(fmt::format("{}: {}", path.string(), why));
+  };
+  const Place place = place_of(path);
+  if (!place.refusal.empty()) refuse(place.refusal);
+  if (place.kind == Place::Kind::standard) return;
+  if (place.exists && ::access(place.path.c_str(), W_OK) != 0) {
+    refuse(fmt::format("cannot be written: {}", std::strerror(errno)));
+  }
+  if (place.kind == Place::Kind::stream) return;
+  if (place.exists && !overwrite) refuse("exists already; --force overwrites it");
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) {
-    throw InputError(fmt::format("{}: is a directory; allowed is a file's name", path.string()));
-  }
-  if (!overwrite && fs::exists(path, ignored)) {
-    throw InputError(fmt::format("{}: exists already; --force overwrites it", path.string()));
-  }
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (!fs::is_directory(folder, ignored) || ::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("{}: {} is not a folder that can be written to", path.string(),
-                                 folder.string()));
+  const fs::path folder = fs::absolute(place.path).parent_path();
+  if (!place.path.has_filename() || !fs::is_directory(folder, ignored) ||
+      ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse(fmt::format("{} is not a folder that can be written to", folder.string()));
   }
 }
 
@@ -85,18 +208,31 @@ void write_file_whole(const fs::path& path, std::string_view text) {
 }
 
 void write_file_whole(const fs::path& path, const std::function<void(OutputFile&)>& fill) {
-  fs::path temporary = path;
-  temporary += fmt::format(".partial-{}", ::getpid());
-  try {
-    OutputFile file(temporary);
-    fill(file);
-    file.close();
-    fs::rename(temporary, path);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw;
+  const Place place = place_of(path);
+  if (!place.refusal.empty()) {
+    throw std::runtime_error(fmt::format("{}: {}", path.string(), place.refusal));
   }
+  if (place.kind == Place::Kind::file) return replace_file(place, fill);
+  OutputFile file = open_stream(place);
+  fill(file);
+  file.close();
+}
+
+fs::path make_beside(const fs::path& path, std::string_view word,
+                     const std::function<bool(const fs::path&)>& make) {
+  constexpr int tries = 100;
+  constexpr std::size_t longest = 200;  // of 255 bytes that a name may have
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  for (int i = 0; i < tries; ++i) {
+    std::string name = path.filename().string().substr(0, longest);
+    name += fmt::format(".{}-", word);
+    for (int k = 0; k < 6; ++k) name += letters[random() % letters.size()];
+    fs::path beside = path.parent_path() / name;
+    if (make(beside)) return beside;
+    if (errno != EEXIST) break;
+  }
+  throw write_error(path);
 }
 
 }  // namespace bounce

@@ -1,4 +1,12 @@
 // Reading and writing files whole, with the reason when it fails.
+//
+// What stands at a path that is to be written decides what happens, here for all commands:
+//   nothing, a file   a new file takes its place whole: it is filled under a temporary name that is
+//                     made new beside it, then renamed; permissions are kept
+//   a link            stays; what it leads to is written by these same rules, made if need be
+//   a device, a pipe  stays and is written into, as the shell's > does
+//   standard output or error, by whatever name: is written into where it stands
+//   a directory, a disk, a socket: refused
 #pragma once
 
 #include <cstdio>
@@ -12,14 +20,22 @@
 
 namespace bounce {
 
-/// The file's contents. Throws InputError naming the file and the reason.
+/// The file's bytes. Throws InputError naming the file and the reason.
+std::string read_bytes(const std::string& path);
+
+/// The text of a file in UTF-8, without the mark that may stand before it (BOM). Throws InputError
+/// naming file and line where it is no such text: UTF-16, another encoding, a zero byte, lines that
+/// end with a carriage return alone.
 std::string read_text_file(const std::string& path);
 
 /// A text file being written. Throws std::runtime_error naming file and reason when a write fails,
 /// so that a full disk is noticed.
 class OutputFile {
  public:
+  /// A new file: one that exists is an error.
   explicit OutputFile(std::filesystem::path path);
+  /// Takes over an open file.
+  OutputFile(int descriptor, std::filesystem::path path);
   void write(std::string_view text);
   /// Writes and empties the text if it has become large, so that it need not be held whole.
   void write_large(fmt::memory_buffer& text);
@@ -36,14 +52,20 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-/// Throws InputError if the file exists and may not be overwritten, or if its folder does not
-/// exist.
+/// To be called before the work begins: throws InputError if write_file_whole() would refuse the
+/// path, if a file exists there and may not be overwritten, or if its folder does not exist or
+/// cannot be written to.
 void check_output_path(const std::filesystem::path& path, bool overwrite);
 
-/// Writes a file under a temporary name and renames it, so that it appears whole.
+/// Writes what a user asked for at that path, by the rules above.
 void write_file_whole(const std::filesystem::path& path, std::string_view text);
 /// The same for what `fill` writes into the file.
 void write_file_whole(const std::filesystem::path& path,
                       const std::function<void(OutputFile&)>& fill);
+
+/// Calls `make` with names beside `path`, PATH.WORD-XXXXXX, until it makes one that is new; it
+/// returns false and sets errno otherwise. Throws std::runtime_error if nothing can be made there.
+std::filesystem::path make_beside(const std::filesystem::path& path, std::string_view word,
+                                  const std::function<bool(const std::filesystem::path&)>& make);
 
 }  // namespace bounce

@@ -1,61 +1,121 @@
 #include "driver/world/run_directory.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 
 namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-// Absolute, without "." and a slash at the end, so that a name can be added to it.
-fs::path plain(const fs::path& path) {
-  const fs::path absolute = fs::absolute(path).lexically_normal();
-  return absolute.has_filename() ? absolute : absolute.parent_path();
+fs::path make_directory_beside(const fs::path& path, std::string_view word) {
+  return make_beside(path, word,
+                     [](const fs::path& name) { return ::mkdir(name.c_str(), 0777) == 0; });
 }
 
-fs::path beside(const fs::path& path, const char* word) {
-  fs::path other = path;
-  other += fmt::format(".{}-{}", word, ::getpid());
-  return other;
+// The file at the path is still the open one: whoever had the lock before may have removed it.
+bool is_still(int descriptor, const fs::path& path) {
+  struct stat open {};
+  struct stat there {};
+  return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+
+// Why the directory must not be replaced; "" if it may.
+std::string refusal_of(const fs::path& path, const std::string& marker) {
+  std::error_code ignored;
+  if (fs::is_symlink(fs::symlink_status(path, ignored))) {
+    return "is a link; allowed is what it leads to, or another name";
+  }
+  if (!fs::is_directory(path, ignored)) return "is not the directory of a run: it is no directory";
+  if (fs::exists(path / marker, ignored) || fs::is_empty(path, ignored)) return "";
+  return fmt::format("is not the directory of a run (no {} there)", marker);
 }
 
 }  // namespace
 
-void check_run_directory(const fs::path& target, bool replace, const std::string& marker) {
-  const fs::path path = plain(target);
-  std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(path, ignored))) return;
-  if (!replace) {
-    throw InputError(fmt::format("--out {}: exists already; --force replaces it", target.string()));
-  }
-  const bool holds_a_run = fs::exists(path / marker, ignored);
-  const bool is_empty = fs::is_directory(path, ignored) && fs::is_empty(path, ignored);
-  if (fs::is_symlink(path, ignored) || !(holds_a_run || is_empty)) {
-    throw InputError(fmt::format(
-        "--out {}: is not the directory of a run (no {} there); --force replaces nothing else",
-        target.string(), marker));
+fs::path plain_path(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
+MadeFolders::~MadeFolders() {
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
+    if (::rmdir(folder->c_str()) != 0) break;
   }
 }
 
+void MadeFolders::make(const fs::path& folder) {
+  if (fs::is_directory(folder)) return;
+  if (folder.has_parent_path() && folder.parent_path() != folder) make(folder.parent_path());
+  if (::mkdir(folder.c_str(), 0777) == 0) {
+    made_.push_back(folder);
+  } else if (!fs::is_directory(folder)) {
+    const int why = errno == EEXIST ? ENOTDIR : errno;
+    throw std::system_error(why, std::generic_category(), folder.string());
+  }
+}
+
+OutputLock::OutputLock(const fs::path& directory, const std::string& asked)
+    : path_(directory.parent_path() /
+            fmt::format(".{}.bounce-lock", directory.filename().string())) {
+  for (;;) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0) return;
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      const bool taken = errno == EWOULDBLOCK;
+      ::close(std::exchange(descriptor_, -1));
+      if (!taken) return;
+      throw InputError(fmt::format(
+          "--out {}: another bounce is at work for this directory; allowed is another name",
+          asked));
+    }
+    if (is_still(descriptor_, path_)) return;
+    ::close(std::exchange(descriptor_, -1));
+  }
+}
+
+OutputLock::~OutputLock() {
+  if (descriptor_ < 0) return;
+  ::unlink(path_.c_str());  // before the lock goes: then it is nobody else's
+  ::close(descriptor_);
+}
+
+void check_run_directory(const fs::path& target, bool replace, const std::string& marker) {
+  const fs::path path = plain_path(target);
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return;
+  const std::string refusal = refusal_of(path, marker);
+  if (replace && refusal.empty()) return;
+  throw InputError(fmt::format(
+      "--out {}: {}", target.string(),
+      !replace ? "exists already" + (refusal.empty() ? "; --force replaces it" : " and " + refusal)
+               : refusal + "; --force replaces nothing else"));
+}
+
 RunDirectory::RunDirectory(const fs::path& target, bool replace, std::string marker)
-    : target_(plain(target)),
-      partial_(beside(target_, "partial")),
-      replace_(replace),
-      marker_(std::move(marker)) {
+    : target_(plain_path(target)), replace_(replace), marker_(std::move(marker)) {
   check_run_directory(target, replace, marker_);
-  std::error_code error;
-  fs::create_directories(target_.parent_path(), error);
-  if (!error) fs::create_directory(partial_, error);
-  if (error) {
+  try {
+    parents_.make(target_.parent_path());
+    lock_ = std::make_unique<OutputLock>(target_, target.string());
+    check_run_directory(target, replace, marker_);  // one may just have been published there
+    partial_ = make_directory_beside(target_, "partial");
+  } catch (const std::system_error& error) {
     throw InputError(fmt::format("--out {}: a directory cannot be made there: {}", target.string(),
-                                 error.message()));
+                                 error.code().message()));
   }
 }
 
@@ -67,17 +127,27 @@ RunDirectory::~RunDirectory() {
 
 void RunDirectory::publish() {
   keep_ = true;  // from here on the run is worth more than a tidy disk
-  const fs::path old = beside(target_, "old");
   try {
     check_run_directory(target_, replace_, marker_);  // it may have appeared meanwhile
-    const bool had_old = fs::exists(target_);
-    if (had_old) fs::rename(target_, old);
-    fs::rename(partial_, target_);
-    if (had_old) fs::remove_all(old);
+    put_in_place(partial_, target_);
   } catch (const std::exception& error) {
     throw std::runtime_error(
         fmt::format("{}\nthe run's files are in {}", error.what(), partial_.string()));
   }
+}
+
+void put_in_place(const fs::path& from, const fs::path& to) {
+  std::error_code ignored;  // what is left of the old one is in nobody's way
+  if (!fs::exists(to)) return fs::rename(from, to);
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0) {
+    fs::remove_all(from, ignored);
+    return;
+  }
+  // A file system that cannot exchange two names.
+  const fs::path old = make_directory_beside(to, "old");
+  fs::rename(to, old);
+  fs::rename(from, to);
+  fs::remove_all(old, ignored);
 }
 
 }  // namespace bounce
