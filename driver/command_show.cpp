@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "driver/world/commands.hpp"
 #include "driver/scene/scene_file.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 
 namespace bounce {
 
@@ -24,7 +25,7 @@ void add_show_command(CLI::App& program, CommandContext&) {
   command->callback([options] {
     SceneFile file = SceneFile::find(options->scene);
     for (const std::string& setting : options->settings) file.set(setting);
-    fmt::print("{}", to_toml(file.scene()));
+    print_out("{}", to_toml(file.scene()));
   });
 }
 

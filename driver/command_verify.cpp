@@ -12,6 +12,7 @@
 
 #include "driver/scene/scene_file.hpp"
 #include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
@@ -46,8 +47,11 @@ struct Case {
 
 std::vector<Case> make_cases(const Options& options) {
   std::vector<Case> cases;
-  for (const std::string& name : options.scenes) {
-    const Scene scene = SceneFile::find(name).scene();
+  std::vector<Scene> scenes;  // each read once: it may come from a pipe
+  for (const std::string& name : options.scenes) scenes.push_back(SceneFile::find(name).scene());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::string& name = options.scenes[i];
+    const Scene& scene = scenes[i];
     if (const std::string refusal = Oracle::refusal(scene); !refusal.empty()) {
       throw InputError(
           fmt::format("bounce verify {}: the oracle cannot run it: {}", name, refusal));
@@ -56,10 +60,9 @@ std::vector<Case> make_cases(const Options& options) {
     const std::int64_t steps = options.full ? whole : options.quick ? quick_steps : default_steps;
     cases.push_back({name, scene, std::min(steps, whole), true, {}});
   }
-  for (const std::string& name : options.scenes) {
-    const Scene scene = at_the_wall(SceneFile::find(name).scene());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
     const std::int64_t steps = options.quick ? quick_steps : wall_steps;
-    cases.push_back({name + " at the wall", scene, steps, true, {}});
+    cases.push_back({options.scenes[i] + " at the wall", at_the_wall(scenes[i]), steps, true, {}});
   }
   return cases;
 }
@@ -113,6 +116,7 @@ constexpr const char* explanation =
     "the largest so far; observables are compared every 10 000 steps.\n";
 
 int verify(const Options& options) {
+  if (!options.out.empty()) check_output_path(options.out, true);
   std::vector<Case> cases = make_cases(options);
   run_cases(cases, kernels_under_test(options.vector));
   std::size_t rows = 0;
@@ -129,7 +133,7 @@ int verify(const Options& options) {
   const std::string text =
       fmt::format("{}\n{}\n{}\ncommit {}, {} {}, {}, {}\n", table_of(cases), explanation, verdict,
                   origin.commit, origin.compiler, origin.flags, origin.cpu, origin.date);
-  fmt::print("{}", text);
+  print_out("{}", text);
   if (!options.out.empty()) write_file_whole(options.out, text);
   return failed == 0 && rows > 0 ? 0 : 1;
 }

@@ -1,14 +1,17 @@
 // The program `bounce`: its commands, and what the world sees of an error.
-#include <cstdio>
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/cores.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/near_miss.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/shell_word.hpp"
 #include "kernels/model/scene.hpp"
@@ -47,6 +50,49 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// Throws InputError if the first word is no command's name.
+void check_command(const CLI::App& program, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  const std::vector<std::string> names = command_names(program);
+  if (word.starts_with('-') || std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError(fmt::format("{}: no such command{} (allowed are: {})", word,
+                               did_you_mean(word, names), fmt::join(names, ", ")));
+}
+
+// --help and --version are printed; an option that is unknown is named, whatever else is wrong.
+int end_of_parsing(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {
+    std::ostringstream text;
+    program.exit(error, text, text);
+    write_out(text.str());
+    return 0;
+  }
+  const auto used = program.get_subcommands();
+  const CLI::App& command = used.empty() ? program : *used.front();
+  const std::string help = "bounce " + (used.empty() ? "" : command.get_name() + " ") + "--help";
+  for (const std::string& word : program.remaining(true)) {
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with('-') || name.find_first_not_of('-') == std::string::npos) continue;
+    throw InputError(fmt::format("{}: no such option{} ({} lists them)", name,
+                                 did_you_mean(name, option_names(command)), help));
+  }
+  throw InputError(fmt::format("{} ({} says more)", error.what(), help));
+}
+
 int parse_and_run(int argc, char** argv) {
   CommandContext context{command_line(argc, argv), 0};
   CLI::App program("bounce: Greenspan's particle model of a bouncing elastic ball", "bounce");
@@ -64,19 +110,28 @@ int parse_and_run(int argc, char** argv) {
   add_advise_command(program, context);
   add_extremes_command(program, context);
   add_verify_command(program, context);
+  check_command(program, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;  // 0: --help and --version
+    return end_of_parsing(program, error);
   }
   return context.exit_code;
 }
 
+// A message may have several lines.
+int report(std::string_view message, int code) {
+  std::string text = "bounce: ";
+  for (std::string_view rest = message; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    text += printable(rest.substr(0, end)) + "\n";
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  write_err(text);
+  return code;
+}
+
 int main_with_errors(int argc, char** argv) {
-  const auto report = [](const char* what, int code) {
-    fmt::print(stderr, "bounce: {}\n", what);
-    return code;
-  };
   try {
     return parse_and_run(argc, argv);
   } catch (const InputError& error) {
@@ -85,7 +140,7 @@ int main_with_errors(int argc, char** argv) {
     return report(error.what(), 2);
   } catch (const PlanError& error) {
     // What may be asked of a plan are options of the same names.
-    return report(((error.field.empty() ? "" : "--") + std::string(error.what())).c_str(), 2);
+    return report((error.field.empty() ? "" : "--") + std::string(error.what()), 2);
   } catch (const std::bad_alloc&) {
     return report("out of memory: the ball is too large for this machine", 1);
   } catch (const std::exception& error) {
@@ -97,6 +152,7 @@ int main_with_errors(int argc, char** argv) {
 }  // namespace bounce
 
 int main(int argc, char** argv) {
+  bounce::guard_streams();
   bounce::limit_threads();
-  return bounce::main_with_errors(argc, argv);
+  return bounce::finish_output(bounce::main_with_errors(argc, argv));
 }

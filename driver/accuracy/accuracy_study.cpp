@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "driver/world/input_error.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_keys.hpp"
-#include "driver/scene/state_file.hpp"
+#include "driver/world/input_error.hpp"
 #include "kernels/model/ball.hpp"
 #include "kernels/model/method.hpp"
 #include "verify/accuracy/baseline.hpp"
@@ -154,12 +153,12 @@ Study make_study(const StudyRequest& request) {
   for (const std::string& setting : request.settings) file.set(setting);
   if (!request.initial.empty()) file.note_origin("initial state", request.initial);
   check_memory(file, "auto", available_memory());
-  load_problem(file, request.initial);  // throws what is wrong with it
-  Study study{std::move(file), {}, {}, {}, {}, {}, {}};
+  std::optional<State> start = load_start(request.initial);
+  load_problem(file, start);  // throws what is wrong with it
+  Study study{std::move(file), {}, std::move(start), {}, {}, {}, {}};
   study.scene = study.file.scene();
   check_names(request);
   check_numbers(request, study.scene);
-  if (!request.initial.empty()) study.initial = read_state(request.initial);
   study.sampling = sampling_of(study.scene, request.every);
   // Here, too, for those who ask for baselines alone, which have no lines.
   for (const double step : request.steps) static_cast<void>(steps_a_sample(step, study.sampling));

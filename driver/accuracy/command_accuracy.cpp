@@ -10,19 +10,20 @@
 
 #include "driver/accuracy/accuracy_study.hpp"
 #include "driver/accuracy/accuracy_table.hpp"
+#include "driver/scene/scene_file.hpp"
 #include "driver/world/commands.hpp"
-#include "verify/accuracy/course_timing.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
-#include "driver/scene/scene_file.hpp"
 #include "kernels/model/method.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/accuracy/accuracy.hpp"
 #include "verify/accuracy/baseline.hpp"
+#include "verify/accuracy/course_timing.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
 namespace bounce {
@@ -30,8 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr int exit_interrupted = 130;
 
 struct Options {
   StudyRequest study;
@@ -135,16 +134,16 @@ void add_baselines(const StudyRequest& request, const Study& study, const Refere
 }
 
 int interrupted_exit() {
-  fmt::print(stderr, "bounce: interrupted; nothing was written\n");
-  return exit_interrupted;
+  print_err("bounce: interrupted; nothing was written\n");
+  return interrupt_exit_code();
 }
 
 int accuracy(const Options& options, const std::string& command_line) {
   check_threads(options.threads);
   choose_vector("auto");  // throws on a processor that BondForces is not compiled for
-  const Study study = make_study(options.study);
-  RunDirectory directory(options.directory(), options.force, "accuracy.csv");
   catch_interrupts();
+  RunDirectory directory(options.directory(), options.force, "accuracy.csv");
+  const Study study = make_study(options.study);
   Reference reference;
   std::optional<std::vector<AccuracyRow>> rows;
   try {
@@ -186,7 +185,7 @@ int accuracy(const Options& options, const std::string& command_line) {
   }
   write_file_whole(directory.path() / "origin.json", origin.dump(2) + "\n");
   directory.publish();
-  fmt::print("{}\nfiles: {}\n", table, options.directory().string());
+  print_out("{}\nfiles: {}\n", table, options.directory().string());
   return 0;
 }
 

@@ -4,19 +4,17 @@
 #include <fmt/format.h>
 
 #include "driver/run/advice_text.hpp"
-#include "driver/world/commands.hpp"
-#include "driver/world/interrupt.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
+#include "driver/world/interrupt.hpp"
 #include "driver/world/shell_word.hpp"
-#include "driver/scene/state_file.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {
 namespace {
-
-constexpr int exit_interrupted = 130;
 
 struct Options {
   std::string scene;
@@ -41,18 +39,18 @@ int advise_on(Options& options) {
   for (const std::string& setting : options.settings) file.set(setting);
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   check_memory(file, "auto", available_memory());
-  load_problem(file, options.initial);  // throws what is wrong with it
+  options.request.initial = load_start(options.initial);
+  load_problem(file, options.request.initial);  // throws what is wrong with it
   check_threads(options.request.threads);
   options.request.scene = file.scene();
-  if (!options.initial.empty()) options.request.initial = read_state(options.initial);
   catch_interrupts();
   const auto advice = ask_advice(options.request);
   if (!advice) {
-    fmt::print(stderr, "bounce: interrupted\n");
-    return exit_interrupted;
+    print_err("bounce: interrupted\n");
+    return interrupt_exit_code();
   }
-  fmt::print("{}\n", describe(*advice, options.request));
-  fmt::print("\n  {}\n", run_text(options, *advice));
+  print_out("{}\n", describe(*advice, options.request));
+  print_out("\n  {}\n", run_text(options, *advice));
   return 0;
 }
 

@@ -13,16 +13,17 @@
 
 #include <fmt/format.h>
 
-#include "driver/world/commands.hpp"
-#include "driver/world/files.hpp"
-#include "driver/world/interrupt.hpp"
+#include "driver/accuracy/reference_record.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
-#include "driver/world/progress.hpp"
-#include "driver/accuracy/reference_record.hpp"
-#include "driver/world/run_directory.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/scene/state_file.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
+#include "driver/world/files.hpp"
+#include "driver/world/interrupt.hpp"
+#include "driver/world/progress.hpp"
+#include "driver/world/run_directory.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
@@ -31,7 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int exit_interrupted = 130;
 constexpr const char* marker = "observables.json";
 
 struct Interrupted {};
@@ -117,7 +117,9 @@ void reference(const Options& options, const std::string& command_line) {
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
   choose_vector("auto");  // throws on a processor that BondForces is not compiled for
   check_memory(file, "auto", available_memory());
-  const Problem problem = load_problem(file, options.initial);
+  catch_interrupts();
+  RunDirectory directory(options.directory(), options.force, marker);
+  const Problem problem = load_problem(file, load_start(options.initial));
   const Scene scene = file.scene();
 
   demand("--tolerance", options.tolerance, 1e-15, 1e-2);
@@ -138,9 +140,6 @@ void reference(const Options& options, const std::string& command_line) {
     throw InputError(error.what());
   }
   const double disturbance = options.disturbance * shortest_bond(problem);
-
-  RunDirectory directory(options.directory(), options.force, marker);
-  catch_interrupts();
   const ReferenceRecord record = make_reference_record(
       scene, problem, steps, solve(problem, times, settings, disturbance), disturbance);
   write_files(directory.path(), record);
@@ -148,7 +147,7 @@ void reference(const Options& options, const std::string& command_line) {
   write_file_whole(directory.path() / marker, reference_json(record, scene, settings, options.every,
                                                              options.scene, command_line));
   directory.publish();
-  fmt::print("{}\nfiles: {}\n", reference_table(record, settings), options.directory().string());
+  print_out("{}\nfiles: {}\n", reference_table(record, settings), options.directory().string());
 }
 
 }  // namespace
@@ -189,7 +188,8 @@ void add_reference_command(CLI::App& program, CommandContext& context) {
       "difference beside each), final.csv, before-impact.csv (the last sample before the first\n"
       "contact), contacts.csv, observables.json (each with its error; settings, origin),\n"
       "scene.toml.\n"
-      "Exit code: 0 done, 2 bad input or a scene that has no reference, 130 stopped with Ctrl-C.\n"
+      "Exit code: 0 done, 2 bad input or a scene that has no reference, 130, 143 or 129\n"
+      "stopped with Ctrl-C, SIGTERM or SIGHUP.\n"
       "Examples:\n"
       "  bounce reference example-2                 (some minutes on two cores)\n"
       "  bounce reference example-2 --t-end 9 --tolerance 1e-12 --step 1e-4 --out quick\n");
@@ -197,8 +197,8 @@ void add_reference_command(CLI::App& program, CommandContext& context) {
     try {
       reference(*options, context.command_line);
     } catch (const Interrupted&) {
-      fmt::print(stderr, "bounce: interrupted; nothing is kept\n");
-      context.exit_code = exit_interrupted;
+      print_err("bounce: interrupted; nothing is kept\n");
+      context.exit_code = interrupt_exit_code();
     }
   });
 }

@@ -5,24 +5,26 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "driver/extremes/extreme_table.hpp"
 #include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/world/near_miss.hpp"
+#include "driver/world/run_directory.hpp"
 #include "kernels/stepping/threads.hpp"
 
 namespace bounce {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int exit_interrupted = 130;
 
 struct Options {
   std::vector<std::string> only;
@@ -103,6 +105,29 @@ class RunsFolder {
   fs::path path_;
 };
 
+// Where the tables go, made sure of before the rows run; "" if they go nowhere.
+class TableFolder {
+ public:
+  explicit TableFolder(const std::string& wanted) : path_(wanted) {
+    if (wanted.empty()) return;
+    try {
+      folders_.make(plain_path(wanted));
+    } catch (const std::system_error& error) {
+      throw InputError(fmt::format("--out {}: a directory cannot be made there: {}", wanted,
+                                   error.code().message()));
+    }
+    lock_.emplace(plain_path(wanted), wanted);
+    for (const fs::path& file : {csv(), markdown()}) check_output_path(file, true);
+  }
+  [[nodiscard]] fs::path csv() const { return path_ / "extremes.csv"; }
+  [[nodiscard]] fs::path markdown() const { return path_ / "extremes.md"; }
+
+ private:
+  fs::path path_;
+  MadeFolders folders_;
+  std::optional<OutputLock> lock_;
+};
+
 double steps_of(const ExtremeRow& row) { return row.scene.time.end / row.scene.time.step; }
 
 // Rows side by side, the longest first; each is told of as it ends.
@@ -118,8 +143,7 @@ void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& f
     if (interrupted()) return;
     order[i]->result = run_extreme_row(order[i]->row, folder);
     const std::lock_guard lock(one_at_a_time);
-    fmt::print(stderr, "{}\n", line_of(*order[i]));
-    std::fflush(stderr);
+    print_err("{}\n", line_of(*order[i]));
   });
 }
 
@@ -143,37 +167,32 @@ int extremes(const Options& options, const std::string& command_line) {
   std::vector<ExtremeEntry> entries = chosen(options);
   if (options.list) {
     for (const auto& [row, result] : entries) {
-      fmt::print("{:<24} {:<9} {}\n", row.name, name_of(row.expected), row.scene.title);
+      print_out("{:<24} {:<9} {}\n", row.name, name_of(row.expected), printable(row.scene.title));
     }
     return 0;
   }
   if (options.threads < 0 || options.threads > 256) {
     throw InputError(fmt::format("--threads {}: allowed is 0 to 256", options.threads));
   }
-  if (!options.out.empty()) {
-    std::error_code error;
-    fs::create_directories(options.out, error);
-    check_output_path(fs::path(options.out) / "extremes.md", true);
-  }
+  const TableFolder tables(options.out);
   catch_interrupts();
   const RunsFolder folder(options.runs);
   run_rows(entries, options.threads, folder.path());
   if (interrupted()) {
-    fmt::print(stderr, "bounce: interrupted; nothing is written\n");
-    return exit_interrupted;
+    print_err("bounce: interrupted; nothing is written\n");
+    return interrupt_exit_code();
   }
   compare_rows(entries, folder.path());
-  for (const ExtremeEntry& entry : entries) fmt::print("{}\n", line_of(entry));
+  for (const ExtremeEntry& entry : entries) print_out("{}\n", line_of(entry));
   if (!options.out.empty()) {
-    const fs::path out = options.out;
-    write_file_whole(out / "extremes.csv", extremes_csv(entries));
-    write_file_whole(out / "extremes.md", extremes_markdown(entries, command_line));
+    write_file_whole(tables.csv(), extremes_csv(entries));
+    write_file_whole(tables.markdown(), extremes_markdown(entries, command_line));
   }
   const auto failed = std::count_if(entries.begin(), entries.end(), [](const ExtremeEntry& entry) {
     return !entry.result.as_expected;
   });
-  fmt::print("{} of {} rows as expected\n", static_cast<std::ptrdiff_t>(entries.size()) - failed,
-             entries.size());
+  print_out("{} of {} rows as expected\n", static_cast<std::ptrdiff_t>(entries.size()) - failed,
+            entries.size());
   return failed == 0 ? 0 : 1;
 }
 
@@ -199,7 +218,8 @@ void add_extremes_command(CLI::App& program, CommandContext& context) {
       "completes with its ledgers closed, or is refused before it starts, or stops with exit code "
       "3,\n"
       "its trouble named and its last good state kept; its file says which, and why.\n"
-      "Exit code: 0 every row does what is expected, 1 one does not, 2 bad input.\n\n"
+      "Exit code: 0 every row does what is expected, 1 one does not, 2 bad input, 130, 143 or 129\n"
+      "stopped with Ctrl-C, SIGTERM or SIGHUP.\n\n"
       "Examples:\n"
       "  bounce extremes --quick\n"
       "  bounce extremes --only bond-1e-3 --runs runs/extremes\n"

@@ -2,9 +2,9 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,6 +24,7 @@
 #include "driver/scene/state_file.hpp"
 #include "driver/scene/step_check.hpp"
 #include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/world/progress.hpp"
@@ -38,7 +39,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int exit_unstable = 3;
-constexpr int exit_interrupted = 130;
 
 struct Options {
   std::string scene;
@@ -63,16 +63,15 @@ struct Options {
 
 // Puts the cheapest setting that reaches the asked error into the scene; says which. Nothing if
 // interrupted.
-std::optional<std::string> take_advice(const Options& options, SceneFile& file) {
+std::optional<std::string> take_advice(const Options& options, const std::optional<State>& start,
+                                       SceneFile& file) {
   AdviceRequest request;
   request.scene = file.scene();
-  if (!options.initial.empty()) request.initial = read_state(options.initial);
+  request.initial = start;
   request.error = *options.error;
   request.observable = options.observable;
   request.books = options.ledger;
-  check_memory(file, options.request.kernel, available_memory());
-  load_problem(file, options.initial);  // throws what is wrong with it
-  catch_interrupts();
+  load_problem(file, start);  // throws what is wrong with it
   const auto advice = ask_advice(request);
   if (!advice) return std::nullopt;
   for (const std::string& setting : settings_of(*advice, request.scene)) file.set(setting);
@@ -107,14 +106,20 @@ std::optional<StepCheck> check_before(const SceneFile& file, const Problem& prob
   if (options.quiet) return check;
   std::vector<std::string> warnings{warning_of_lost_motion(problem, file.scene())};
   if (check) {
-    fmt::print("{}\n", describe(*check, problem));
-    std::fflush(stdout);
+    print_out("{}\n", describe(*check, problem));
+    flush_output();
     warnings.push_back(warning_of(*check, file.scene()));
   }
   for (const std::string& warning : warnings) {
-    if (!warning.empty()) fmt::print(stderr, "bounce: warning: {}\n", warning);
+    if (!warning.empty()) print_err("bounce: warning: {}\n", warning);
   }
   return check;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.close();
 }
 
 // BAL4.OUT1 at the first million steps and so on, BAL4.OUT at the end. As in the listing, the end
@@ -124,10 +129,9 @@ void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end
   constexpr std::int64_t million = 1'000'000;
   constexpr std::int64_t numbered_files = 19;
   const auto write = [&](const std::string& name) {
-    std::ofstream out(folder / name);
-    write_listing_frame(out, state);
-    out.close();
-    if (!out) throw std::runtime_error((folder / name).string() + ": cannot be written");
+    std::ostringstream text;
+    write_listing_frame(text, state);
+    write_text(folder / name, text.str());
   };
   if (step % million == 0 && (step / million <= numbered_files || !is_end)) {
     write(fmt::format("BAL4.OUT{}", step / million));
@@ -177,30 +181,24 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   return result;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
 void print_summary(const RunRecord& record, const Options& options) {
   const Plan& plan = record.plan;
   const RunResult& result = record.result;
-  fmt::print("{}\n", record.scene.title.empty() ? record.scene_name : record.scene.title);
-  fmt::print("plan: kernel {}, vector {}, {} lane(s), {} thread(s); law {}; walls {}\n",
-             kernel_name(plan), name_of(plan.vector), plan.lanes, plan.threads, plan.law,
-             plan.walls);
-  if (!plan.left_out.empty()) fmt::print("left out: {}\n", fmt::join(plan.left_out, ", "));
-  fmt::print("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
-             record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
+  print_out("{}\n", printable(record.scene.title.empty() ? record.scene_name : record.scene.title));
+  print_out("plan: kernel {}, vector {}, {} lane(s), {} thread(s); law {}; walls {}\n",
+            kernel_name(plan), name_of(plan.vector), plan.lanes, plan.threads, plan.law,
+            plan.walls);
+  if (!plan.left_out.empty()) print_out("left out: {}\n", fmt::join(plan.left_out, ", "));
+  print_out("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
+            record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
   if (const auto& margin = record.margin) {
     const double time = static_cast<double>(margin->step) * record.scene.time.step;
-    fmt::print("greatest part of the stable step used: {}\n", describe(*margin, time));
+    print_out("greatest part of the stable step used: {}\n", describe(*margin, time));
   }
-  fmt::print("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
-  fmt::print("{}", summary_text(record.findings));
-  fmt::print("state hash: {:016x}\n", state_hash(result.last));
-  fmt::print("files: {}\n", options.directory().string());
+  print_out("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
+  print_out("{}", summary_text(record.findings));
+  print_out("state hash: {:016x}\n", state_hash(result.last));
+  print_out("files: {}\n", options.directory().string());
 }
 
 // Says on stderr why a run is not complete; the exit code.
@@ -210,31 +208,42 @@ int report_end(const RunRecord& record, const Options& options) {
     case RunStatus::complete:
       return 0;
     case RunStatus::interrupted:
-      fmt::print(stderr,
-                 "bounce: interrupted at step {}; kept what was written, last state in {}\n",
-                 record.result.step, last.string());
-      return exit_interrupted;
+      print_err("bounce: interrupted at step {}; kept what was written, last state in {}\n",
+                record.result.step, last.string());
+      return interrupt_exit_code();
     case RunStatus::unstable:
-      fmt::print(stderr, "bounce: {}{}", trouble_text(record),
-                 how_to_go_on(record, options.directory().string()));
+      print_err("bounce: {}{}", trouble_text(record),
+                how_to_go_on(record, options.directory().string()));
       return exit_unstable;
   }
   return 1;
 }
 
+void check_final_state(const Options& options) {
+  if (options.final_state.empty()) return;
+  if (plain_path(options.final_state) == plain_path(options.directory())) {
+    throw InputError(fmt::format(
+        "--final-state {}: is where the results go; allowed is another name", options.final_state));
+  }
+  check_output_path(options.final_state, options.force);
+}
+
 int run(const Options& options, const std::string& command_line) {
   SceneFile file = load_scene(options);
-  check_run_directory(options.directory(), options.force);
-  if (!options.final_state.empty()) check_output_path(options.final_state, options.force);
+  check_final_state(options);
+  check_memory(file, options.request.kernel, available_memory());
+  catch_interrupts();
+  RunDirectory directory(options.directory(), options.force);
+  std::optional<State> start = load_start(options.initial);
   RunRecord record;
   if (options.error) {
-    const auto advice = take_advice(options, file);
+    const auto advice = take_advice(options, start, file);
     if (!advice) {
-      fmt::print(stderr, "bounce: interrupted; nothing was written\n");
-      return exit_interrupted;
+      print_err("bounce: interrupted; nothing was written\n");
+      return interrupt_exit_code();
     }
     record.advice = *advice;
-    if (!options.quiet) fmt::print("{}\n", record.advice);
+    if (!options.quiet) print_out("{}\n", record.advice);
   }
   record.command = command_line;
   record.scene_name = options.scene;
@@ -242,7 +251,8 @@ int run(const Options& options, const std::string& command_line) {
   record.scene = file.scene();
   record.steps_asked = record.scene.steps_until(record.scene.time.end);
   check_memory(file, options.request.kernel, available_memory());
-  Problem problem = load_problem(file, options.initial);
+  Problem problem = load_problem(file, start);
+  start.reset();
   record.step_check = check_before(file, problem, options);
   record.particles = problem.initial.size();
   record.bonds = problem.bonds.bonds();
@@ -264,9 +274,7 @@ int run(const Options& options, const std::string& command_line) {
   }
   problem.initial = State();  // the stepper holds the particles now
 
-  RunDirectory directory(options.directory(), options.force);
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
-  catch_interrupts();
   MarginGauge margin(problem);
   record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
                            record.findings, margin);
@@ -328,8 +336,9 @@ void add_run_command(CLI::App& program, CommandContext& context) {
       "(energies and momenta), frames.extxyz (opens in OVITO and ASE), final.csv (last state); "
       "with\n"
       "--ledger also ledger.csv (what walls and integrator did from sample to sample).\n"
-      "Exit code: 0 complete, 2 bad input, 3 unstable, 130 stopped with Ctrl-C, 1 anything "
-      "else.\n\n"
+      "Exit code: 0 complete, 2 bad input, 3 unstable, 130, 143 or 129 stopped with Ctrl-C, "
+      "SIGTERM\n"
+      "or SIGHUP, 1 anything else.\n\n"
       "Examples:\n"
       "  bounce run example-2\n"
       "  bounce run example-2 --set law.elasticity=1000 --out runs/soft\n"

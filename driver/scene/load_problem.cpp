@@ -1,14 +1,15 @@
 #include "driver/scene/load_problem.hpp"
 
-#include <optional>
-
 #include "driver/scene/state_file.hpp"
 
 namespace bounce {
 
-Problem load_problem(const SceneFile& file, const std::string& initial) {
-  std::optional<State> start;
-  if (!initial.empty()) start = read_state(initial);
+std::optional<State> load_start(const std::string& initial) {
+  if (initial.empty()) return std::nullopt;
+  return read_state(initial);
+}
+
+Problem load_problem(const SceneFile& file, const std::optional<State>& start) {
   try {
     return make_problem(file.scene(), start);
   } catch (const SceneError& error) {

@@ -1,6 +1,7 @@
 // From a scene file and an initial state to the numbers that are computed with.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "driver/scene/scene_file.hpp"
@@ -8,8 +9,12 @@
 
 namespace bounce {
 
-/// make_problem, started from the state in the file `initial` (see read_state) unless that is "".
-/// Throws InputError that names file, line, key and value.
-Problem load_problem(const SceneFile& file, const std::string& initial);
+/// The state in the file `initial` (see read_state); nothing if that is "". It is to be read once:
+/// the file may be a pipe.
+std::optional<State> load_start(const std::string& initial);
+
+/// make_problem, started from that state, if there is one. Throws InputError that names file, line,
+/// key and value.
+Problem load_problem(const SceneFile& file, const std::optional<State>& start);
 
 }  // namespace bounce

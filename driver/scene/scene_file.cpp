@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "driver/scene/built_in_scenes.hpp"
+#include "driver/scene/scene_keys.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/near_miss.hpp"
-#include "driver/scene/scene_keys.hpp"
 
 namespace bounce {
 
@@ -131,7 +131,16 @@ SceneFile SceneFile::parse(std::string_view text, const std::string& name) {
   return file;
 }
 
-SceneFile SceneFile::read(const std::string& path) { return parse(read_text_file(path), path); }
+SceneFile SceneFile::read(const std::string& path) {
+  const std::string text = read_text_file(path);
+  SceneFile file = parse(text, path);
+  if (file.origins_.empty() && file.scene_.walls.empty()) {
+    throw InputError(fmt::format(
+        "{}: {}; allowed is a scene that says at least one key (bounce show example-1 prints one)",
+        path, text.empty() ? "the file is empty" : "the file holds no key"));
+  }
+  return file;
+}
 
 SceneFile SceneFile::find(const std::string& name) {
   std::vector<std::string> names;

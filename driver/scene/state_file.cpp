@@ -1,5 +1,6 @@
 #include "driver/scene/state_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <iterator>
@@ -76,6 +77,9 @@ void read_csv_line(const Line& line, State& state) {
 
 State read_csv(const std::string& path, std::string_view rest) {
   State state;
+  while (rest.ends_with("\n\n") || rest.ends_with("\n\r\n")) {
+    rest.remove_suffix(rest.ends_with("\n\n") ? 1 : 2);
+  }
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     const Line line{path, number, rest.substr(0, end)};
@@ -84,6 +88,17 @@ State read_csv(const std::string& path, std::string_view rest) {
   }
   if (state.size() == 0) throw InputError(path + ": holds no particles");
   return state;
+}
+
+// A number that is cut off in its middle is a number, too: only the line's end tells.
+void check_end(const std::string& path, std::string_view text) {
+  if (text.empty()) throw InputError(path + ": the file is empty; allowed is a state");
+  if (text.ends_with('\n')) return;
+  const auto line = std::count(text.begin(), text.end(), '\n') + 1;
+  throw InputError(
+      fmt::format("{}:{}: the last line has no end: the file may have been cut there; allowed is a "
+                  "line feed after every line",
+                  path, line));
 }
 
 }  // namespace
@@ -101,6 +116,7 @@ void write_state_csv(OutputFile& file, const State& state) {
 
 State read_state(const std::string& path) {
   const std::string text = read_text_file(path);
+  check_end(path, text);
   if (trimmed(std::string_view(text).substr(0, text.find('\n'))) == csv_header) {
     return read_csv(path, text);
   }

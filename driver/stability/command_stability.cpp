@@ -15,19 +15,20 @@
 
 #include <nlohmann/json.hpp>
 
-#include "driver/world/commands.hpp"
+#include "driver/scene/load_problem.hpp"
+#include "driver/scene/scene_file.hpp"
+#include "driver/scene/step_check.hpp"
 #include "driver/stability/edge_row.hpp"
 #include "driver/stability/edge_sweep.hpp"
 #include "driver/stability/edge_table.hpp"
+#include "driver/stability/sweep_directory.hpp"
+#include "driver/world/commands.hpp"
+#include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/scene/load_problem.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
-#include "driver/scene/scene_file.hpp"
-#include "driver/scene/state_file.hpp"
-#include "driver/scene/step_check.hpp"
-#include "driver/stability/sweep_directory.hpp"
+#include "driver/world/run_directory.hpp"
 #include "kernels/model/method.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/vibrations/stability_limit.hpp"
@@ -38,8 +39,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 namespace fs = std::filesystem;
-
-constexpr int exit_interrupted = 130;
 
 struct Options {
   std::string scene;
@@ -71,6 +70,7 @@ struct Options {
 // A scene ready for either way of finding its edge.
 struct Case {
   SceneFile file;
+  std::optional<State> initial;
   Problem problem;
 };
 
@@ -78,8 +78,9 @@ Case load_case(const Options& options) {
   SceneFile file = SceneFile::find(options.scene);
   for (const std::string& setting : options.settings) file.set(setting);
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
-  Problem problem = load_problem(file, options.initial);
-  return {std::move(file), std::move(problem)};
+  std::optional<State> initial = load_start(options.initial);
+  Problem problem = load_problem(file, initial);
+  return {std::move(file), std::move(initial), std::move(problem)};
 }
 
 // JSON has no infinity: the stable step of a ball in which nothing vibrates is null.
@@ -108,20 +109,20 @@ std::string prediction_json(const Options& options, const Problem& problem,
 void print_prediction(const Problem& problem, const StepCheck& check) {
   const FastestVibration& fastest = check.fastest;
   if (fastest.exact) {
-    fmt::print("omega_max: {:.8g} 1/s (largest eigenvalue of the bond energy's Hessian, Lanczos)\n",
-               fastest.omega);
+    print_out("omega_max: {:.8g} 1/s (largest eigenvalue of the bond energy's Hessian, Lanczos)\n",
+              fastest.omega);
   } else {
-    fmt::print("omega_max: {:.8g} 1/s (by the bound; the ball is too large for Lanczos)\n",
-               fastest.omega);
+    print_out("omega_max: {:.8g} 1/s (by the bound; the ball is too large for Lanczos)\n",
+              fastest.omega);
   }
-  fmt::print("its bound: {:.8g} 1/s\n\n", std::sqrt(fastest.bound.lambda));
-  fmt::print("{:<14} {:>22} {:>15}\n", "method", "limit of omega_max dt", "stable step, s");
+  print_out("its bound: {:.8g} 1/s\n\n", std::sqrt(fastest.bound.lambda));
+  print_out("{:<14} {:>22} {:>15}\n", "method", "limit of omega_max dt", "stable step, s");
   for (const Method& method : methods()) {
-    fmt::print("{:<14} {:>22.6g} {:>15.6g}\n", method.name, stability_limit(method),
-               stable_step(method, fastest.omega));
+    print_out("{:<14} {:>22.6g} {:>15.6g}\n", method.name, stability_limit(method),
+              stable_step(method, fastest.omega));
   }
-  fmt::print("\ntime step: {:.6g} s, {:.3g} of the stable step of {}\n", problem.step, check.part,
-             problem.method->name);
+  print_out("\ntime step: {:.6g} s, {:.3g} of the stable step of {}\n", problem.step, check.part,
+            problem.method->name);
 }
 
 // Throws InputError if a stiffness at the start is not finite.
@@ -137,7 +138,7 @@ void predict(const Options& options) {
   const Case it = load_case(options);
   const StepCheck check = check_start(it);
   if (options.json) {
-    fmt::print("{}", prediction_json(options, it.problem, check));
+    print_out("{}", prediction_json(options, it.problem, check));
   } else {
     print_prediction(it.problem, check);
   }
@@ -178,10 +179,10 @@ std::vector<std::string> methods_of(const Options& options) {
   return options.methods.empty() ? all : options.methods;
 }
 
-SweepRequest request_of(const Options& options, const SceneFile& file) {
+SweepRequest request_of(const Options& options, const Case& it) {
   SweepRequest request;
-  request.scene = file.scene();
-  if (!options.initial.empty()) request.initial = read_state(options.initial);
+  request.scene = it.file.scene();
+  request.initial = it.initial;
   request.methods = methods_of(options);
   request.elasticities = elasticities_of(options);
   request.step = options.step.value_or(request.scene.time.step);
@@ -219,10 +220,10 @@ Json origin_json(const Options& options, const SweepRequest& request, const std:
 }
 
 // What a stopped sweep must have in common with one that goes on with its rows.
-std::string arguments_json(const Options& options, const std::vector<SweepCase>& cases,
-                           const SweepRequest& request) {
+std::string arguments_json(const std::vector<SweepCase>& cases, const SweepRequest& request) {
   Json json{{"scene", to_toml(request.scene)},
-            {"initial", options.initial.empty() ? Json() : Json(read_text_file(options.initial))},
+            {"initial",
+             request.initial ? Json(fmt::format("{:016x}", state_hash(*request.initial))) : Json()},
             {"commit", find_origin().commit},
             {"cases", Json::array()}};
   for (const SweepCase& each : cases) json["cases"].push_back(each.key);
@@ -292,24 +293,24 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
 }
 
 int measure(const Options& options, const std::string& command_line) {
+  check_run_directory(options.directory(), options.force, SweepDirectory::marker);
   const Case it = load_case(options);
   check_start(it);
-  const SweepRequest request = request_of(options, it.file);
+  const SweepRequest request = request_of(options, it);
   const std::vector<SweepCase> cases = make_sweep(request);
-  SweepDirectory directory(options.directory(), options.force,
-                           arguments_json(options, cases, request));
+  SweepDirectory directory(options.directory(), options.force, arguments_json(cases, request));
   std::map<std::string, std::string> rows = directory.found();
   if (!rows.empty()) {
-    fmt::print(stderr, "bounce: going on with a stopped sweep: {} of {} cases are there\n",
-               rows.size(), cases.size());
+    print_err("bounce: going on with a stopped sweep: {} of {} cases are there\n", rows.size(),
+              cases.size());
   }
   catch_interrupts();
   if (!measure_missing(cases, options, directory, rows)) {
-    fmt::print(stderr,
-               "bounce: interrupted; {} of {} cases are in {}; the same command goes on with "
-               "them\n",
-               rows.size(), cases.size(), directory.path().string());
-    return exit_interrupted;
+    print_err(
+        "bounce: interrupted; {} of {} cases are in {}; the same command goes on with "
+        "them\n",
+        rows.size(), cases.size(), directory.path().string());
+    return interrupt_exit_code();
   }
   std::string csv = edge_header;
   std::vector<EdgeRow> table;
@@ -324,7 +325,7 @@ int measure(const Options& options, const std::string& command_line) {
   write_file_whole(directory.path() / "origin.json",
                    origin_json(options, request, command_line).dump(2) + "\n");
   directory.publish();
-  fmt::print("{}\nfiles: {}\n", text, options.directory().string());
+  print_out("{}\nfiles: {}\n", text, options.directory().string());
   return 0;
 }
 
@@ -402,7 +403,8 @@ void add_stability_command(CLI::App& program, CommandContext& context) {
       "case), table.txt (as printed), origin.json, scene.toml. A sweep that is stopped goes on "
       "where\n"
       "it was when the same command is given again.\n"
-      "Exit code: 0 done, 2 bad input, 130 stopped with Ctrl-C, 1 anything else.\n"
+      "Exit code: 0 done, 2 bad input, 130, 143 or 129\n"
+      "stopped with Ctrl-C, SIGTERM or SIGHUP, 1 anything else.\n"
       "Examples:\n"
       "  bounce stability example-2 --predict\n"
       "  bounce stability example-2 --predict --json --set law.elasticity=1e6\n"

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "driver/world/interrupt.hpp"
+
 namespace bounce {
 namespace {
 
@@ -55,8 +57,13 @@ ProcessEnd run_this_program(const std::vector<std::string>& arguments,
   if (error != 0) throw std::runtime_error(program + ": cannot be run: " + std::strerror(error));
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   ProcessEnd result;
+  bool asked_to_end = false;
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
+    if (interrupted() && !asked_to_end) {
+      asked_to_end = true;
+      kill(child, SIGTERM);
+    }
     if (!result.timed_out && std::chrono::steady_clock::now() > end) {
       result.timed_out = true;
       kill(child, SIGKILL);

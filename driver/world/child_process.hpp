@@ -16,7 +16,8 @@ struct ProcessEnd {
 };
 
 /// Runs this very program with these arguments in `folder`, its output in the files `out` and `err`
-/// there, and waits for it, at most `seconds`. Throws std::runtime_error if it cannot be started.
+/// there, and waits for it, at most `seconds`; asks it to end once
+/// interrupted(). Throws std::runtime_error if it cannot be started.
 /// May be called from several threads.
 ProcessEnd run_this_program(const std::vector<std::string>& arguments,
                             const std::filesystem::path& folder, const std::string& out,
