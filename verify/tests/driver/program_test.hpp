@@ -93,7 +93,8 @@ class ProgramTest : public testing::Test {
         const rlimit limit{memory_, memory_};
         if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(99);
       }
-      dup2(open("stdout", flags, 0600), STDOUT_FILENO);
+      for (const int ignored : ignored_) signal(ignored, SIG_IGN);
+      dup2(stdout_ >= 0 ? stdout_ : open("stdout", flags, 0600), STDOUT_FILENO);
       dup2(open("stderr", flags, 0600), STDERR_FILENO);
       execv(BOUNCE_PROGRAM, arguments.data());
       _exit(99);
@@ -112,6 +113,27 @@ class ProgramTest : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
   int run(const Words& words) { return finish(start(words)); }
+  // A script for /bin/sh in the test's folder, in which $BOUNCE is the program; 124 after two
+  // minutes.
+  int shell(const std::string& script) {
+    const std::string text = "exec > stdout 2> stderr\nBOUNCE='" BOUNCE_PROGRAM "'\ncd '" +
+                             folder_.string() + "'\n" + script + "\n";
+    const std::string command = "cd '" + folder_.string() + "' && timeout 120 /bin/sh script";
+    std::ofstream(folder_ / "script") << text;
+    const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe)
+    fs::remove(folder_ / "script");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  // Waits, at most 20 s, until a name that begins so is in the folder.
+  void wait_for(const std::string& name) const {
+    for (int wait = 0; wait < 4000; ++wait) {
+      for (const std::string& each : names()) {
+        if (each.starts_with(name)) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ADD_FAILURE() << "no " << name;
+  }
 
   [[nodiscard]] std::string out() const { return contents(folder_ / "stdout"); }
   [[nodiscard]] std::string err() const { return contents(folder_ / "stderr"); }
@@ -127,8 +149,10 @@ class ProgramTest : public testing::Test {
   }
 
   fs::path folder_;
-  rlim_t largest_file_ = 0;  // bytes the program may write to a file; 0: no limit
-  rlim_t memory_ = 0;        // bytes it may take; 0: no limit
+  rlim_t largest_file_ = 0;   // bytes the program may write to a file; 0: no limit
+  rlim_t memory_ = 0;         // bytes it may take; 0: no limit
+  int stdout_ = -1;           // where its output goes instead of the file stdout
+  std::vector<int> ignored_;  // signals that it is started with as ignored
 };
 
 }  // namespace bounce

@@ -41,7 +41,7 @@ TEST_F(DriverRefusalTest, BadInputExitsWith2AndLeavesNothing) {
   for (const Case& c : std::vector<Case>{
            {{}, "subcommand is required"},
            {{"run"}, "SCENE is required"},
-           {{"fly"}, "subcommand is required"},
+           {{"fly"}, "fly: no such command"},
            {{"run", "example-22"}, "did you mean example-2?"},
            {{"run", "bad.toml"}, "bad.toml:2: law.q = 1"},
            {{"run", "example-2", "--set", "law.elasticty=1"}, "did you mean law.elasticity?"},
@@ -99,7 +99,7 @@ TEST_F(DriverRefusalTest, AFullDiskIsAnErrorThatLeavesNothing) {
   largest_file_ = 4096;  // scene.toml fits, a frame does not
   EXPECT_EQ(run({"run", "example-2", "--steps", "10"}), 1);
   EXPECT_NE(err().find("frames.extxyz: cannot be written: "), std::string::npos) << err();
-  EXPECT_EQ(names("runs"), Words{});
+  EXPECT_EQ(names(), Words{});
 }
 
 }  // namespace

@@ -191,12 +191,7 @@ TEST_F(DriverRunTest, StepsReplaceAnEndThatIsTooFar) {
 
 TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
   const pid_t child = start({"run", "example-2", "--t-end", "100000", "--out", "r"});
-  // Wait until it has something to keep: monitor.csv in the partial directory.
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  const fs::path partial = folder_ / ("r.partial-" + std::to_string(child));
-  while (!fs::exists(partial / "frames.extxyz") && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  wait_for("r.partial-");
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child), 130) << err();
