@@ -159,7 +159,8 @@ TEST_F(DriverOutputTest, ASecondRunForADirectoryIsRefusedWhileTheFirstIsAtIt) {
 
 TEST_F(DriverOutputTest, SignalsEndARunAsCtrlCDoes) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const std::string name = "r" + std::to_string(signal);
+    std::string name("r");
+    name += std::to_string(signal);
     const pid_t child = start_endless(name);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     kill(child, signal);
