@@ -48,6 +48,10 @@ TEST_F(DriverOutputTest, DevicesStayAndAreWrittenInto) {
       << err();
   EXPECT_TRUE(fs::is_character_file(folder_ / "node"));
   EXPECT_EQ(names(), (Words{"ball.toml", "node", "paper.toml", "r"}));
+  // A disk would be written over from its first byte on; it is never opened.
+  ASSERT_EQ(mknod((folder_ / "disk").c_str(), S_IFBLK | 0600, makedev(240, 0)), 0);
+  EXPECT_EQ(run({"verify", "--full", "--out", "disk"}), 2);
+  EXPECT_NE(err().find("disk: is a disk; allowed is a file's name"), std::string::npos) << err();
 }
 
 TEST_F(DriverOutputTest, PipesAndStandardOutputAreWrittenInto) {
