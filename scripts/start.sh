@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# From a fresh clone to the paper's pictures: installs what is missing, builds, runs the seven
-# examples at full length, one on each core, and draws. A run that this commit has made of the same
-# scene is kept.
-#   scripts/start.sh           all examples: 111.5 million steps, 2 to 3 minutes on 2 cores
+# From a fresh clone to the paper's pictures: installs what is missing, builds, runs Example 2 and
+# draws it, then the other six at full length, one on each core. A run that this commit has made of
+# the same scene is kept.
+#   scripts/start.sh           all examples: 111.5 million steps, a minute or two on 2 cores after the build
 #   scripts/start.sh --quick   Example 2 alone
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -82,38 +82,42 @@ run_all() {
 }
 
 scripts/install.sh
+printf 'Building the program: 2 to 8 minutes the first time, by the machine\n'
 scripts/build.sh release bounce
 commit=$("$bounce" --version | sed -n '1s/.*(commit \(.*\))$/\1/p')
 [[ -n $commit ]] || fail "$bounce --version names no commit"
 
-# The longest first, so that the cores finish together.
-scenes=(example-7 example-4 example-5 example-6 example-1 example-2 example-3)
-figures=()
-if [[ $quick == true ]]; then
-  scenes=(example-2)
-  figures=(--only 1 2 3 4 7)
-fi
+# draw FIGURE...: into runs/, which git ignores: results/ holds what was made from a clean tree and
+# committed. No FIGURE: all.
+draw() {
+  local only=()
+  (($# == 0)) || only=(--only "$@")
+  scripts/figures.py --runs runs --out runs/figures --allow-dirty "${only[@]}"
+}
 
-to_run=()
-for scene in "${scenes[@]}"; do
-  if is_current "$scene"; then
-    printf '  runs/%s: there already, by this commit; not run again\n' "$scene"
-  else
-    keep_own "$scene"
-    to_run+=("$scene")
-  fi
-done
-if ((${#to_run[@]})); then
-  printf 'Running %s\n' "${to_run[*]}"
-  run_all "${to_run[@]}" || fail "not every run is complete; no pictures drawn"
-fi
+# run_missing SCENE...: those that are not there already.
+run_missing() {
+  local to_run=() scene
+  for scene in "$@"; do
+    if is_current "$scene"; then
+      printf '  runs/%s: there already, by this commit; not run again\n' "$scene"
+    else
+      keep_own "$scene"
+      to_run+=("$scene")
+    fi
+  done
+  ((${#to_run[@]} == 0)) || run_all "${to_run[@]}" || fail "not every run is complete; no pictures drawn"
+}
 
-# Into runs/, which git ignores: results/ holds what was made from a clean tree and committed.
-printf 'Drawing\n'
-scripts/figures.py --runs runs --out runs/figures --allow-dirty "${figures[@]}"
-if [[ $quick == true ]]; then
-  printf 'Look at runs/figures/figure-07.png: Example 2 falls and bounces.\n'
-else
-  printf 'Look at the pictures in runs/figures, Example 2 first: figure-07.png.\n'
+printf 'Running Example 2, 15 million steps: some seconds\n'
+run_missing example-2
+draw 1 2 3 4 7
+printf 'Look at runs/figures/figure-07.png: Example 2 falls and bounces.\n'
+if [[ $quick == false ]]; then
+  printf 'Running the other six, 96.5 million steps: a minute or two\n'
+  # The longest first, so that the cores finish together.
+  run_missing example-7 example-4 example-5 example-6 example-1 example-3
+  draw
+  printf 'Look at the pictures in runs/figures.\n'
 fi
 printf 'Next: %s list; %s run --help\n' "$bounce" "$bounce"

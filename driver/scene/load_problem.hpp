@@ -14,7 +14,8 @@ namespace bounce {
 std::optional<State> load_start(const std::string& initial);
 
 /// make_problem, started from that state, if there is one. Throws InputError that names file, line,
-/// key and value.
+/// key and value; also where the ball's start, rounded to four decimals, would strain its bonds by
+/// more than 1 %.
 Problem load_problem(const SceneFile& file, const std::optional<State>& start);
 
 }  // namespace bounce

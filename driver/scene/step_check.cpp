@@ -8,8 +8,8 @@
 
 #include "kernels/model/method.hpp"
 #include "verify/stability/bounce_run.hpp"
-#include "verify/watch/monitor.hpp"
 #include "verify/vibrations/stability_limit.hpp"
+#include "verify/watch/monitor.hpp"
 
 namespace bounce {
 namespace {

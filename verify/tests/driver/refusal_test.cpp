@@ -102,5 +102,23 @@ TEST_F(DriverRefusalTest, AFullDiskIsAnErrorThatLeavesNothing) {
   EXPECT_EQ(names(), Words{});
 }
 
+// Radii of 0.02 cm: four decimals would strain the shortest bonds, 0.001 cm long, by a tenth.
+TEST_F(DriverRefusalTest, ARoundingThatStrainsTheBall) {
+  const auto write = [this](const std::string& more) {
+    std::ofstream(folder_ / "tiny.toml")
+        << "[ball]\nradii = [0.02, 0.024, 0.028]\ncentre = [0.0, 0.03]\n" + more +
+               "[law]\nelasticity = 1e-6\nrest = \"geometry\"\n[time]\nmethod = \"leapfrog\"\n"
+               "step = 1e-6\nend = 1e-5\n[output]\nmonitor_every = 1e-5\n";
+  };
+  write("");
+  EXPECT_EQ(run({"run", "tiny.toml", "--quiet", "--out", "r"}), 0) << err();
+  EXPECT_NE(contents(folder_ / "r/scene.toml").find("rounding = \"none\""), std::string::npos);
+  write("rounding = \"listing\"\n");
+  EXPECT_EQ(run({"run", "tiny.toml", "--quiet", "--out", "s"}), 2);
+  EXPECT_NE(err().find("tiny.toml:4: ball.rounding = \"listing\": allowed is \"none\""),
+            std::string::npos)
+      << err();
+}
+
 }  // namespace
 }  // namespace bounce

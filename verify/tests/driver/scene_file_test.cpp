@@ -304,5 +304,19 @@ TEST(SceneFileTest, UnknownScenesAreRefused) {
   EXPECT_NE(message_of([] { SceneFile::find("/"); }).find("cannot be read"), std::string::npos);
 }
 
+// The author's file had four decimals; other balls have what their scene says.
+TEST(SceneFile, RoundsTheStartOfThePapersBallAlone) {
+  const auto rounding = [](const std::string& text) {
+    return SceneFile::parse(text, "test.toml").scene().ball.rounding;
+  };
+  EXPECT_EQ(rounding("[ball]\ncentre = [0.0, 10.0]\n"), Rounding::listing);
+  EXPECT_EQ(rounding("[ball]\nradii = [5.0, 6.0, 7.0]\n"), Rounding::listing);
+  const std::string geometry = "[law]\nrest = \"geometry\"\n";
+  EXPECT_EQ(rounding(geometry + "[ball]\nradii = [5.0, 6.0, 8.0]\n"), Rounding::none);
+  EXPECT_EQ(rounding(geometry + "[ball]\nper_ring = 60\n"), Rounding::none);
+  EXPECT_EQ(rounding(geometry + "[ball]\nper_ring = 60\nrounding = \"listing\"\n"),
+            Rounding::listing);
+}
+
 }  // namespace
 }  // namespace bounce
