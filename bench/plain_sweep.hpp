@@ -1,5 +1,5 @@
-// The ring kernel made to walk all of its ball a stage: what stepping tiles several stages in cache
-// is held against.
+// The ring kernel made to go through all of its ball a stage: what stepping tiles several stages
+// in cache is held against.
 #pragma once
 
 #include <memory>

@@ -16,7 +16,7 @@ std::string parameter_of(const AccuracyRow& row) {
 }
 
 // An error as far as the reference can tell it.
-std::string told(double error, double bar) {
+std::string known_error(double error, double bar) {
   if (std::isfinite(error) && error <= bar) return fmt::format("<{:.1e}", bar);
   return fmt::format("{:.1e}", error);
 }
@@ -25,12 +25,12 @@ std::string line_of(const TimedRow& timed, const CourseErrors& bar) {
   const AccuracyRow& row = timed.row;
   std::string line =
       fmt::format("{:<15} {:<9} {:>9} {:>9.3g} {:>9}", row.setting.method, contact_name(row),
-                  parameter_of(row), timed.seconds, told(row.errors.position, bar.position));
+                  parameter_of(row), timed.seconds, known_error(row.errors.position, bar.position));
   for (const ObservableName& each : observable_names) {
-    line += fmt::format(" {:>9}",
-                        told(row.errors.observables.*each.value, bar.observables.*each.value));
+    line += fmt::format(
+        " {:>9}", known_error(row.errors.observables.*each.value, bar.observables.*each.value));
   }
-  line += fmt::format(" {:>9}\n", told(row.errors.energy, bar.energy));
+  line += fmt::format(" {:>9}\n", known_error(row.errors.energy, bar.energy));
   return row.note.empty() ? line : line + fmt::format("  ({})\n", row.note);
 }
 

@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "driver/world/origin.hpp"
 #include "driver/run/run_gauges.hpp"
+#include "driver/world/origin.hpp"
 
 namespace bounce {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "driver/world/files.hpp"
 #include "kernels/model/scene.hpp"
+#include "verify/accuracy/reference_pair.hpp"
 #include "verify/watch/monitor.hpp"
 #include "verify/watch/observables.hpp"
-#include "verify/accuracy/reference_pair.hpp"
 
 namespace bounce {
 

@@ -130,7 +130,7 @@ class TableFolder {
 
 double steps_of(const ExtremeRow& row) { return row.scene.time.end / row.scene.time.step; }
 
-// Rows side by side, the longest first; each is told of as it ends.
+// Rows side by side, the longest first; a line is printed as each ends.
 void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& folder) {
   std::vector<ExtremeEntry*> order;
   order.reserve(entries.size());

@@ -43,7 +43,7 @@ struct ExtremeRow {
 /// Reads a row's text. Throws InputError naming row, key, value and what is allowed.
 ExtremeRow read_extreme_row(const std::string& name, std::string_view text);
 
-/// All rows built in, by group in the order of the list, then by name.
+/// All rows built in, by group in the order of the table, then by name.
 std::vector<ExtremeRow> extreme_rows();
 
 /// The state the row starts from, if it is not the scene's own ball.

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/scene/state_file.hpp"
 #include "driver/world/child_process.hpp"
 #include "driver/world/files.hpp"
-#include "driver/scene/state_file.hpp"
 #include "verify/watch/compensated_sum.hpp"
 #include "verify/watch/rounding_size.hpp"
 

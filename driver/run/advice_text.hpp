@@ -9,9 +9,10 @@
 
 namespace bounce {
 
-/// advise(), stopped by Ctrl-C: nothing then. Throws InputError naming the option, for an observable
-/// that does not exist or that the run does not have, an error that is not above 0 or that nothing
-/// reaches, with the smallest that something does, and a scene in which nothing vibrates.
+/// advise(), stopped by Ctrl-C: nothing then. Throws InputError naming the option, for an
+/// observable that does not exist or that the run does not have, an error that is not above 0 or
+/// that nothing reaches, with the smallest that something does, and a scene in which nothing
+/// vibrates.
 std::optional<Advice> ask_advice(AdviceRequest request);
 
 /// The advice and its forecasts, for a person: some lines, without an end of line.

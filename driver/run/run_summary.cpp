@@ -70,8 +70,9 @@ std::string ledger_text(const RunFindings& findings) {
 Json vector_json(Vec2 v) { return {v.x, v.y}; }
 
 Json line_json(const LedgerLine& line) {
-  Json json{{"name", line.name},          {"unit", line.unit},       {"residual", line.residual},
-            {"rounding_walk", line.likely}, {"allowed", line.allowed}, {"closes", line.closes()}};
+  Json json{{"name", line.name},         {"unit", line.unit},
+            {"residual", line.residual}, {"rounding_walk", line.likely},
+            {"allowed", line.allowed},   {"closes", line.closes()}};
   if (!line.closes()) json["first_step"] = line.fault_step;
   return json;
 }

@@ -10,8 +10,8 @@
 namespace bounce {
 namespace {
 
-// Four decimals move both ends of a bond by up to 5e-5 cm. The paper's shortest bond is 0.26 cm long:
-// 0.04 % of it.
+// Four decimals move both ends of a bond by up to 5e-5 cm. The paper's shortest bond is 0.26 cm
+// long: 0.04 % of it.
 void check_rounding(const Scene& scene, const Problem& problem) {
   constexpr double moved = 1e-4, most = 0.01;
   double shortest = std::numeric_limits<double>::infinity();

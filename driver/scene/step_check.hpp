@@ -27,10 +27,10 @@ inline constexpr double part_to_warn_of = 0.5;
 /// The check of a problem's start, or nothing if a stiffness there is not finite.
 std::optional<StepCheck> check_step(const Problem& problem);
 
-/// Throws InputError naming key, value, what is allowed and where the value came from, if the start
-/// has no finite stiffness, the step is beyond the stable one, or something moves so fast, at the
-/// start or when the ball will meet a wall, that it could pass through a neighbour or the wall within
-/// a step.
+/// Throws InputError naming key, value, what is allowed and where the value came from, if the
+/// start has no finite stiffness, the step is beyond the stable one, or something moves so fast,
+/// at the start or when the ball will meet a wall, that it could pass through a neighbour or the
+/// wall within a step.
 void refuse_unstable_step(const SceneFile& file, const Problem& problem,
                           const std::optional<StepCheck>& check);
 

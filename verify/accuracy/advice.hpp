@@ -63,8 +63,8 @@ bool is_observable(const std::string& name);
 /// Its unit.
 std::string unit_of(const std::string& observable);
 
-/// Nothing if it was stopped. Throws NoAdvice; std::invalid_argument for an observable that does not
-/// exist or an error that is not above 0.
+/// Nothing if it was stopped. Throws NoAdvice; std::invalid_argument for an observable that does
+/// not exist or an error that is not above 0.
 std::optional<Advice> advise(const AdviceRequest& request);
 
 }  // namespace bounce

@@ -1,8 +1,8 @@
 // Solvers that are no table of stages, as baselines of the methods: an implicit conservative one,
-// and GSL's adaptive ones, with contacts located as in a reference: Runge-Kutta-Fehlberg of orders 4
-// and 5, Prince-Dormand of 8 and 9, Adams's multistep method of orders 1 to 12, and two for stiff
-// motions, backward differences of orders 1 to 5 and Bader and Deuflhard's extrapolation of the
-// implicit midpoint rule (at most 1000 particles). One interface; another one is a line in
+// and GSL's adaptive ones, with contacts located as in a reference: Runge-Kutta-Fehlberg of orders
+// 4 and 5, Prince-Dormand of 8 and 9, Adams's multistep method of orders 1 to 12, and two for
+// stiff motions, backward differences of orders 1 to 5 and Bader and Deuflhard's extrapolation of
+// the implicit midpoint rule (at most 1000 particles). One interface; another one is a line in
 // baseline.cpp.
 #pragma once
 

@@ -26,9 +26,9 @@
 #include <span>
 #include <string_view>
 
+#include "kernels/contact/contact_run.hpp"
 #include "kernels/model/problem.hpp"
 #include "kernels/model/state.hpp"
-#include "kernels/contact/contact_run.hpp"
 
 namespace bounce {
 

@@ -29,10 +29,10 @@ struct TroubleReport {
   std::string bond_class;               ///< "ring 1-ring 2"; "" if the trouble names no bond
   std::optional<TroubledState> before;  ///< the last good state; nothing: the start was refused
   TroubledState refused;
-  /// A time step to try, s: `step_safety` times the smallest stable step of the good states known, at
-  /// most half of the one that failed, rounded down to two digits. So whoever follows it comes to a
-  /// step that does. Refused states do not count: an instability presses bonds as no stable run does.
-  /// Nothing if no good state has a finite stable step.
+  /// A time step to try, s: `step_safety` times the smallest stable step of the good states known,
+  /// at most half of the one that failed, rounded down to two digits. So whoever follows it comes
+  /// to a step that does. Refused states do not count: an instability presses bonds as no stable
+  /// run does. Nothing if no good state has a finite stable step.
   std::optional<double> stable_step;
 
   /// Energy that came up in the refused step, erg; of a refused start, NaN.

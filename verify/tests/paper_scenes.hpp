@@ -11,7 +11,7 @@
 
 namespace bounce {
 
-/// Example 1 to 7 (MODEL 4).
+/// Example 1 to 7 of the paper.
 inline Scene paper_scene(int example) {
   Scene scene;
   scene.title = "Example " + std::to_string(example);

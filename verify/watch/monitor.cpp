@@ -119,9 +119,9 @@ double rest_bond_energy(const Problem& problem) {
   return energy.value();
 }
 
-// The least gravity energy -g.x of a unit mass in front of all walls, erg; minus infinity if it can
-// fall without end. Where -g = a n + b m with a, b >= 0 and two walls n.x >= c, m.x >= d, -g.x is at
-// least a c + b d; one wall across gravity is the same with b = 0.
+// The least gravity energy -g.x of a unit mass in front of all walls, erg; minus infinity if it
+// can fall without end. Where -g = a n + b m with a, b >= 0 and two walls n.x >= c, m.x >= d, -g.x
+// is at least a c + b d; one wall across gravity is the same with b = 0.
 double lowest_gravity_energy(const Problem& problem) {
   const Vec2 up{-problem.gravity.x, -problem.gravity.y};
   const auto cross = [](Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; };
@@ -210,8 +210,8 @@ std::optional<Trouble> non_finite_number(const Problem& problem, const State& s)
   return std::nullopt;
 }
 
-// Where something may pass through a neighbour or a wall within a step: of the bond that changes most
-// or of the particle that is fastest.
+// Where something may pass through a neighbour or a wall within a step: of the bond that changes
+// most or of the particle that is fastest.
 std::optional<Trouble> too_fast(const Problem& problem, const State& state, const Sample& sample) {
   const Stride stride = stride_of(problem, sample);
   if (!(stride.bond > 1.0) && !(stride.wall > 1.0)) return std::nullopt;

@@ -36,9 +36,9 @@ inline constexpr double contact_distance = 1e-4;
 /// Measures a state; sums are compensated (Neumaier), so each energy is good to its last digits.
 Sample measure(const Problem& problem, const State& state);
 
-/// How far a state moves in one drift of the problem's method, in parts of what it must not jump over.
-/// Above 1 a particle could pass through its neighbour, or a wall by more than the distance between
-/// neighbours, between two looks of the method at the forces.
+/// How far a state moves in one drift of the problem's method, in parts of what it must not jump
+/// over. Above 1 a particle could pass through its neighbour, or a wall by more than the distance
+/// between neighbours, between two looks of the method at the forces.
 struct Stride {
   double bond = 0.0;  ///< change of a bond, in its rest length
   double wall = 0.0;  ///< way towards a wall, in the shortest rest length
@@ -53,13 +53,14 @@ struct Trouble {
 };
 
 /// Looks at a run from time to time. Walls only take energy and the scheme conserves it nearly, so
-/// energy that appears from nowhere, more than the ball can ever set into motion, means instability.
-/// What it can: its kinetic energy at the start, all that gravity can give, and ten times its elastic
-/// energy at the start, because near the edge of stability the method itself makes the energy of a
-/// vibration w swing by (1 + a)/(1 - a), a = w dt/2, without being unstable. (Motion seen since must
-/// not count: in an unstable run it grows with the energy that it should catch.) What gravity can
-/// give does not depend on when one looks: it is the fall of every particle to the lowest place in
-/// front of the walls. Where there is no such place it is the greatest fall seen.
+/// energy that appears from nowhere, more than the ball can ever set into motion, means
+/// instability. What it can: its kinetic energy at the start, all that gravity can give, and ten
+/// times its elastic energy at the start, because near the edge of stability the method itself
+/// makes the energy of a vibration w swing by (1 + a)/(1 - a), a = w dt/2, without being unstable.
+/// (Motion seen since must not count: in an unstable run it grows with the energy that it should
+/// catch.) What gravity can give does not depend on when one looks: it is the fall of every
+/// particle to the lowest place in front of the walls. Where there is no such place it is the
+/// greatest fall seen.
 class Watch {
  public:
   Watch(const Problem& problem, const State& start);

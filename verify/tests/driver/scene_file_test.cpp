@@ -113,7 +113,7 @@ TEST(SceneFileTest, EveryBuiltInSceneParsesValidatesBuildsAndGoesRound) {
   }
 }
 
-// MODEL 4, once more and apart from the files.
+// The paper's examples, once more and apart from the files.
 TEST(SceneFileTest, TheExamplesAreThePapers) {
   struct Row {
     const char* name;

@@ -16,7 +16,7 @@
 namespace bounce {
 namespace {
 
-// Neighbours of particle i (from 1) in the listing's order: MODEL 3, row by row.
+// Neighbours of particle i (from 1) in the order in which the listing sums them.
 std::vector<int> listing_row(int i) {
   if (i == 1) return {2, 120, 121, 240};
   if (i <= 119) return {i + 1, i - 1, i + 120, i + 119};

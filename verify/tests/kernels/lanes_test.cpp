@@ -3,8 +3,8 @@
 #define HWY_COMPILE_ONLY_STATIC
 #include <gtest/gtest.h>
 
-#include "kernels/model/problem.hpp"
 #include "kernels/csr/csr_physics-inl.hpp"
+#include "kernels/model/problem.hpp"
 #include "kernels/rings/mirror_stepper-inl.hpp"
 #include "kernels/rings/ring_stepper-inl.hpp"
 #include "verify/tests/kernels/method_names.hpp"

@@ -41,9 +41,9 @@ class MethodOnKernel : public testing::TestWithParam<std::tuple<std::string, std
   Problem problem_ = touching_problem(std::get<0>(GetParam()), std::get<1>(GetParam()));
 };
 
-// The table, stage by stage: the first step with all its stages but the last, each further one with
-// that last one joined to its first. The bound of KernelTest.StepsLikePlainCode, an evaluation for a
-// step.
+// The table, stage by stage: the first step with all its stages but the last, each further one
+// with that last one joined to its first. The bound of KernelTest.StepsLikePlainCode, an
+// evaluation for a step.
 TEST_P(MethodOnKernel, StepsLikeItsTable) {
   const std::span<const Stage> table = problem_.method->stages;
   const bool holds = problem_.method->first_same_as_last;

@@ -112,7 +112,7 @@ TEST(PairLaw, PowersTakenOnceAreThoseOfEachBond) {
 TEST(PairLaw, PotentialOfThePapersLaw) {
   const BondClass bond{16000.0, 1096.64, std::sqrt(0.06854)};
   const double u = 1.0 / 0.09;
-  // MODEL 2: E (-u/2 + R0^2 u^2/4).
+  // Per bond: E (-u/2 + R0^2 u^2/4).
   EXPECT_NEAR(potential({3, 5}, bond, 0.09), -8000.0 * u + 274.16 * u * u, 1e-10);
 }
 

@@ -54,8 +54,8 @@ TEST(Plan, TakesHalfTheBallWhereItIsSymmetricAndSaysWhyNot) {
   EXPECT_EQ(make_plan(make_problem(straight, start)).kernel, "ring");
 }
 
-// 12 columns come out even with 4 lanes only: a plan names what runs, and a forced target is refused
-// rather than answered by another one.
+// 12 columns come out even with 4 lanes only: a plan names what runs, and a forced target is
+// refused rather than answered by another one.
 TEST(Plan, NamesTheVectorsThatRun) {
   Scene scene = touching_scene();
   scene.law.rest = Rest::geometry;

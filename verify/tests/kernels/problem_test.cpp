@@ -17,7 +17,7 @@ namespace bounce {
 namespace {
 
 TEST(Problem, SingleLiterals) {
-  EXPECT_EQ(single_literal(1096.64), 1096.6400146484375);  // MODEL 3
+  EXPECT_EQ(single_literal(1096.64), 1096.6400146484375);  // as FORTRAN reads it
   EXPECT_EQ(single_literal(0.098), 0.09799999743700027);
   EXPECT_EQ(single_literal(0.000001), 9.999999974752427e-07);
   EXPECT_EQ(single_literal(16000.0), 16000.0);
@@ -56,7 +56,7 @@ TEST(Problem, RestFromGeometry) {
   const double s = std::sin(std::numbers::pi / 120.0);
   const double c = std::cos(std::numbers::pi / 120.0);
   const std::array<double, 5> rest_squared{100 * s * s, 61 - 60 * c, 144 * s * s, 85 - 84 * c,
-                                           196 * s * s};  // MODEL 2
+                                           196 * s * s};
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(problem.classes[k].rest, std::sqrt(rest_squared[k]), 1e-13);
     EXPECT_NEAR(problem.classes[k].repulsion, 16000.0 * rest_squared[k], 1e-9);

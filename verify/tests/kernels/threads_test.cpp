@@ -30,7 +30,8 @@ class OpenMpThreads {
   int before_ = omp_get_max_threads();
 };
 
-// Whether the counter comes to the value; gives up in the end, so that a test fails but never hangs.
+// Whether the counter comes to the value; gives up in the end, so that a test fails but never
+// hangs.
 bool reaches(const std::atomic<int>& counter, int value) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (counter.load() < value) {

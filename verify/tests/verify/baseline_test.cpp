@@ -136,8 +136,7 @@ TEST_P(StiffBaseline, MeetsAFloorAsRk8pdDoes) {
     const Solved fine = solve(rk8pd(), problem, 1e-12), solved = solve(solver(), problem, 1e-8);
     Problem open = problem;
     open.walls.clear();
-    EXPECT_GT(largest_distance(solve(rk8pd(), open, 1e-12).states.back(), fine.states.back()),
-              0.1)
+    EXPECT_GT(largest_distance(solve(rk8pd(), open, 1e-12).states.back(), fine.states.back()), 0.1)
         << "it met no floor";
     const double off = largest_distance(solved.states.back(), fine.states.back());
     EXPECT_LT(off, 20.0 * 1e-8 * 14.0);

@@ -7,10 +7,10 @@
 
 #include "kernels/model/problem.hpp"
 #include "verify/accuracy/conservative.hpp"
-#include "verify/watch/monitor.hpp"
 #include "verify/accuracy/reference_solution.hpp"
-#include "verify/vibrations/spectrum.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/vibrations/spectrum.hpp"
+#include "verify/watch/monitor.hpp"
 
 namespace bounce {
 namespace {

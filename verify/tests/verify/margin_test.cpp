@@ -9,8 +9,8 @@
 #include <random>
 
 #include "verify/oracle/oracle.hpp"
-#include "verify/vibrations/stability_limit.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/vibrations/stability_limit.hpp"
 
 namespace bounce {
 namespace {

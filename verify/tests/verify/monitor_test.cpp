@@ -19,7 +19,7 @@ bool mentions(const Trouble& trouble, const std::string& text) {
   return trouble.what.find(text) != std::string::npos;
 }
 
-// The same sums, plainly, in long double: V(R) = E (-u/2 + R0^2 u^2/4), u = 1/R^2 (MODEL 2).
+// The same sums, plainly, in long double: V(R) = E (-u/2 + R0^2 u^2/4), u = 1/R^2.
 struct Reference {
   long double kinetic = 0, bond = 0, gravity = 0, spin = 0;
 };
@@ -295,8 +295,8 @@ int looks_until_trouble(double dt, int looks, State& last) {
   return -1;
 }
 
-// "To prevent instability" (MODEL 4): with E = 16000 steps beyond 3.83e-4 s are unstable. It has to
-// be seen while the numbers are still finite.
+// "To prevent instability", as the paper says: with E = 16000 steps beyond 3.83e-4 s are unstable.
+// It has to be seen while the numbers are still finite.
 TEST(Watch, StopsAnUnstableRunBeforeItOverflows) {
   State last;
   for (const double dt : {3.9e-4, 1e-3, 1e-2}) {

@@ -29,7 +29,7 @@ TEST(Oracle, ConstantsAreTheListingsLiterals) {
   const Listing& b = oracle.listing();
   EXPECT_EQ(b.e, 16000.0);
   EXPECT_EQ(b.h11, static_cast<double>(1096.64F));
-  EXPECT_EQ(b.h11, 1096.6400146484375);  // MODEL 3
+  EXPECT_EQ(b.h11, 1096.6400146484375);  // as FORTRAN reads 1096.64
   EXPECT_EQ(b.h12, 16328.0);
   EXPECT_EQ(b.h22, static_cast<double>(1578.4F));
   EXPECT_EQ(b.h23, static_cast<double>(16462.8F));
@@ -123,7 +123,7 @@ State one_step_along_rows(const Problem& problem) {
   return after;
 }
 
-// Nine cases against the rule of MODEL 3, all 360 particles, the same bits. Twenty disordered
+// Nine cases against the rule that they follow, all 360 particles, the same bits. Twenty disordered
 // balls: sums in another order agree by chance about every second time.
 TEST(Oracle, NineCasesAreTheNeighbourListInItsOrder) {
   Scene scene = paper_scene(2);

@@ -13,10 +13,10 @@
 #include "verify/stability/bounce_run.hpp"
 #include "verify/stability/bracket.hpp"
 #include "verify/stability/energy_judge.hpp"
-#include "verify/vibrations/spectrum.hpp"
 #include "verify/stability/stability_edge.hpp"
-#include "verify/vibrations/stability_limit.hpp"
 #include "verify/stability/vibration.hpp"
+#include "verify/vibrations/spectrum.hpp"
+#include "verify/vibrations/stability_limit.hpp"
 
 namespace bounce {
 namespace {
