@@ -127,7 +127,7 @@ RunResult RunLoop::run() {
 }  // namespace
 
 std::int64_t steps_to_look_at(std::size_t particles) {
-  constexpr std::int64_t particle_steps = 360 * 10000;
+  constexpr std::int64_t particle_steps = std::int64_t{360} * 10000;
   constexpr std::int64_t least = 100;
   return std::max(least,
                   particle_steps / static_cast<std::int64_t>(std::max<std::size_t>(particles, 1)));

@@ -27,7 +27,7 @@ void refuse_long_strides(const SceneFile& file, const Problem& problem) {
   start.approach = std::max(start.approach, meeting_speed(problem));
   const Stride stride = stride_of(problem, start);
   const double part = std::max(stride.bond, stride.wall);
-  if (!(part > 1.0)) return;
+  if (stride.bond <= 1.0 && stride.wall <= 1.0) return;
   throw file.explain(SceneError(
       "time.step", fmt::format("{}", file.scene().time.step),
       fmt::format(

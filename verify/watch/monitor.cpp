@@ -214,7 +214,7 @@ std::optional<Trouble> non_finite_number(const Problem& problem, const State& s)
 // most or of the particle that is fastest.
 std::optional<Trouble> too_fast(const Problem& problem, const State& state, const Sample& sample) {
   const Stride stride = stride_of(problem, sample);
-  if (!(stride.bond > 1.0) && !(stride.wall > 1.0)) return std::nullopt;
+  if (stride.bond <= 1.0 && stride.wall <= 1.0) return std::nullopt;
   const auto speed = [&](std::size_t i) { return std::hypot(state.vx[i], state.vy[i]); };
   std::size_t fastest = 0;
   for (std::size_t i = 1; i < state.size(); ++i) {

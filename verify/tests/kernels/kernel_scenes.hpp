@@ -26,6 +26,14 @@ inline Scene wedge_scene() {
   return scene;
 }
 
+/// The same thrown up against a ceiling, over a floor that it does not touch.
+inline Scene ceiling_scene() {
+  Scene scene = touching_scene();
+  scene.ball.velocity.y = 2.0;
+  scene.walls = {Wall{}, Wall{{0.0, -1.0}, -(7.002 + 7.002), 0.4, -0.6}};
+  return scene;
+}
+
 /// A scene with resolved contact, sticky unless said otherwise.
 inline Scene resolved(Scene scene, double alpha = 0.0, double beta = 0.0) {
   for (Wall& wall : scene.walls) {

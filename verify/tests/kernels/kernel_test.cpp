@@ -38,6 +38,11 @@ std::vector<Case> cases() {
   add("floor", touching_scene(), {"strict", "csr", "ring", "annulus"});
   add("no_wall", no_wall, {"strict", "csr", "ring", "annulus"});
   add("wedge", wedge_scene(), {"strict", "csr", "ring", "annulus"});
+  add("ceiling", ceiling_scene(), {"strict", "csr", "ring", "annulus"});
+  Scene lid = ceiling_scene();
+  lid.ball.velocity.x = 0.0;
+  lid.walls.erase(lid.walls.begin());
+  add("ceiling_alone", lid, {"strict", "csr", "ring", "annulus", "mirror"});
   add("resolved", resolved(touching_scene()), {"csr", "ring", "annulus"});
   add("resolved_half", resolved(touching_scene(), 0.5, 0.0), {"csr", "ring", "annulus"});
   add("resolved_wedge", resolved(wedge_scene(), 0.3, -0.7), {"csr", "ring", "annulus"});
