@@ -24,7 +24,7 @@ std::string key_of(const std::string& line) {
 
 }  // namespace
 
-SweepDirectory::SweepDirectory(fs::path target, bool replace, const std::string& arguments)
+SweepDirectory::SweepDirectory(const fs::path& target, bool replace, const std::string& arguments)
     : target_(plain_path(target)), part_(target_), replace_(replace) {
   part_ += ".part";
   check_run_directory(target, replace, marker);

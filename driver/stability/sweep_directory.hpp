@@ -23,7 +23,7 @@ class SweepDirectory {
 
   /// Throws InputError if `target` exists and may not be replaced or holds no sweep, if DIR.part is
   /// of a sweep with other arguments (`replace` drops it), or if another process works there.
-  SweepDirectory(std::filesystem::path target, bool replace, const std::string& arguments);
+  SweepDirectory(const std::filesystem::path& target, bool replace, const std::string& arguments);
   ~SweepDirectory();
   SweepDirectory(const SweepDirectory&) = delete;
   SweepDirectory& operator=(const SweepDirectory&) = delete;

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <ranges>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -52,8 +53,8 @@ fs::path plain_path(const fs::path& path) {
 }
 
 MadeFolders::~MadeFolders() {
-  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
-    if (::rmdir(folder->c_str()) != 0) break;
+  for (const fs::path& folder : std::views::reverse(made_)) {
+    if (::rmdir(folder.c_str()) != 0) break;
   }
 }
 
