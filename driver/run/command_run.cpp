@@ -228,6 +228,24 @@ void check_final_state(const Options& options) {
   check_output_path(options.final_state, options.force);
 }
 
+// The plan's kernel, with its books (null: none) if the ledger is asked for.
+struct RunStepper {
+  std::unique_ptr<Stepper> stepper;
+  const WallBooks* books = nullptr;
+};
+RunStepper make_run_stepper(const Options& options, const RunRecord& record,
+                            const Problem& problem) {
+  if (!options.ledger) return {record.plan.make_stepper()};
+  if (record.plan.cuts_steps) {
+    throw InputError(
+        "--ledger: allowed is wall.contact listing or resolved; located contact cuts steps, and "
+        "these books are of whole ones (the monitor's ledger is there in any case)");
+  }
+  auto booking = make_booking_stepper(record.scene, problem, record.plan);
+  const WallBooks* books = &booking->books();
+  return {std::move(booking), books};
+}
+
 int run(const Options& options, const std::string& command_line) {
   SceneFile file = load_scene(options);
   check_final_state(options);
@@ -258,20 +276,7 @@ int run(const Options& options, const std::string& command_line) {
   record.bonds = problem.bonds.bonds();
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
   record.plan = make_plan(problem, options.request, entries);
-  std::unique_ptr<Stepper> stepper;
-  const WallBooks* books = nullptr;
-  if (options.ledger) {
-    if (record.plan.cuts_steps) {
-      throw InputError(
-          "--ledger: allowed is wall.contact listing or resolved; located contact cuts steps, and "
-          "these books are of whole ones (the monitor's ledger is there in any case)");
-    }
-    auto booking = make_booking_stepper(record.scene, problem, record.plan);
-    books = &booking->books();
-    stepper = std::move(booking);
-  } else {
-    stepper = record.plan.make_stepper();
-  }
+  auto [stepper, books] = make_run_stepper(options, record, problem);
   problem.initial = State();  // the stepper holds the particles now
 
   write_text(directory.path() / "scene.toml", to_toml(record.scene));

@@ -210,22 +210,52 @@ std::optional<Trouble> non_finite_number(const Problem& problem, const State& s)
   return std::nullopt;
 }
 
-// Where something may pass through a neighbour or a wall within a step: of the bond that changes
-// most or of the particle that is fastest.
+// The bond that changes fastest for its length.
+Trouble fastest_bond(const Problem& problem, const State& state, const Stride& stride) {
+  std::size_t first = 0, second = 0, bond_class = 0;
+  double most = -1.0;
+  problem.bonds.for_each_bond([&](std::size_t i, std::size_t j, std::size_t c) {
+    const double speed = std::hypot(state.vx[i] - state.vx[j], state.vy[i] - state.vy[j]);
+    if (!(speed > most * problem.classes[c].rest)) return;
+    most = speed / problem.classes[c].rest;
+    first = i;
+    second = j;
+    bond_class = c;
+  });
+  return trouble_at(
+      "particles " + std::to_string(first + 1) + " and " + std::to_string(second + 1) +
+          ", which a bond joins, move by " + print(stride.bond) +
+          " of its length against each other in a step, so that one may pass through "
+          "the other unnoticed (a smaller time step helps)",
+      static_cast<std::int64_t>(first), static_cast<std::int64_t>(second),
+      std::sqrt(squared_distance(state, first, second)) / problem.classes[bond_class].rest);
+}
+
+// The particle that comes to a wall fastest.
+Trouble fastest_approach(const Problem& problem, const State& state, const Stride& stride) {
+  std::size_t particle = 0;
+  double most = -1.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    for (const Wall& wall : problem.walls) {
+      const double speed = -(wall.normal.x * state.vx[i] + wall.normal.y * state.vy[i]);
+      if (!(speed > most)) continue;
+      most = speed;
+      particle = i;
+    }
+  }
+  const Tightest bond = tightest_bond(problem, state, particle);
+  return trouble_at("particle " + std::to_string(particle + 1) + " moves by " + print(stride.wall) +
+                        " times the distance between neighbours towards a wall in a step, so that "
+                        "it may pass through a wall unnoticed (a smaller time step helps)",
+                    static_cast<std::int64_t>(particle), bond.partner, bond.ratio);
+}
+
+// Where something may pass through a neighbour or a wall within a step.
 std::optional<Trouble> too_fast(const Problem& problem, const State& state, const Sample& sample) {
   const Stride stride = stride_of(problem, sample);
   if (stride.bond <= 1.0 && stride.wall <= 1.0) return std::nullopt;
-  const auto speed = [&](std::size_t i) { return std::hypot(state.vx[i], state.vy[i]); };
-  std::size_t fastest = 0;
-  for (std::size_t i = 1; i < state.size(); ++i) {
-    if (speed(i) > speed(fastest)) fastest = i;
-  }
-  const Tightest bond = tightest_bond(problem, state, fastest);
-  return trouble_at(
-      "particle " + std::to_string(fastest + 1) + " moves by " +
-          print(speed(fastest) * problem.step) + " cm in a step, so that it may pass through " +
-          (stride.bond > 1.0 ? "a neighbour" : "a wall") + " unnoticed (a smaller time step helps)",
-      static_cast<std::int64_t>(fastest), bond.partner, bond.ratio);
+  return stride.bond <= 1.0 ? fastest_approach(problem, state, stride)
+                            : fastest_bond(problem, state, stride);
 }
 
 }  // namespace

@@ -241,6 +241,41 @@ TEST_F(WatchTest, AllowsAnEndlessFall) {
   EXPECT_NEAR(watch.allowed_gain(), before + 1000.0, 1e-9);
 }
 
+// The steps are 1e-6 s, the shortest bonds 0.2618 cm: what comes to the floor at 3e5 cm/s moves by
+// more than that; what moves along it, or a whole ball without walls, does no harm.
+TEST_F(WatchTest, NamesWhatMayPassThroughAWall) {
+  State state = state_;
+  for (std::size_t i = 0; i < state.size(); ++i) state.vy[i] = -2e5;
+  EXPECT_LT(stride_of(problem_, measure(problem_, state)).wall, 1.0);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.vx[i] = 9e5;
+    state.vy[i] = -3e5;
+  }
+  state.vy[40] = -3.0001e5;
+  state.vx[7] = 9.5e5;  // the fastest, but along the floor
+  const auto trouble = check(state);
+  ASSERT_TRUE(trouble);
+  EXPECT_TRUE(mentions(*trouble, "particle 41 moves by 1.15 times")) << trouble->what;
+  EXPECT_TRUE(mentions(*trouble, "through a wall")) << trouble->what;
+  Problem open = problem_;
+  open.walls.clear();
+  EXPECT_LT(stride_of(open, measure(open, state)).wall, 1.0);
+}
+
+TEST_F(WatchTest, NamesTheBondWhoseEndsMayPassEachOther) {
+  State state = state_;
+  state.vx[4] = 3e5;
+  state.vx[3] = -1000.0;
+  const auto trouble = check(state);
+  ASSERT_TRUE(trouble);
+  EXPECT_TRUE(mentions(*trouble, "particles 4 and 5, which a bond joins, move by 1.15"))
+      << trouble->what;
+  EXPECT_EQ(trouble->bond_first, 3);
+  EXPECT_EQ(trouble->bond_second, 4);
+  state.vx[4] = 2e5;
+  EXPECT_LT(stride_of(problem_, measure(problem_, state)).bond, 1.0);
+}
+
 // Energy that grows by 1 % a look is still growing when every single look seems harmless.
 TEST_F(WatchTest, CatchesSlowGrowth) {
   const Sample start = measure(problem_, state_);
