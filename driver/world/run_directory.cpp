@@ -71,6 +71,19 @@ bool is_left_over(const fs::path& part) {
   return true;
 }
 
+// Files that were being written when the run was killed (make_beside() in files.hpp).
+void remove_temporaries(const fs::path& folder) {
+  constexpr std::string_view word = ".partial-";
+  constexpr std::size_t letters = 6;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (name.size() < word.size() + letters) continue;
+    if (name.substr(name.size() - word.size() - letters).starts_with(word)) found.push_back(entry);
+  }
+  for (const fs::path& file : found) fs::remove(file);
+}
+
 }  // namespace
 
 fs::path plain_path(const fs::path& path) {
@@ -165,6 +178,7 @@ RunDirectory::RunDirectory(Reopened, const fs::path& target)
         name_));
   }
   keep_ = true;
+  remove_temporaries(part_);
 }
 
 RunDirectory RunDirectory::reopen(const fs::path& target) {
