@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "driver/run/extended_xyz.hpp"
-#include "driver/run/ledger_csv.hpp"
-#include "driver/run/monitor_csv.hpp"
+#include "driver/output/extended_xyz.hpp"
+#include "driver/output/ledger_csv.hpp"
+#include "driver/output/monitor_csv.hpp"
 #include "driver/run/run_gauges.hpp"
 #include "verify/watch/margin.hpp"
 #include "verify/watch/words.hpp"

@@ -1,4 +1,4 @@
-#include "driver/run/extended_xyz.hpp"
+#include "driver/output/extended_xyz.hpp"
 
 #include <iterator>
 #include <utility>
