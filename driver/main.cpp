@@ -9,8 +9,8 @@
 
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
-#include "driver/world/cores.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/near_miss.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/shell_word.hpp"

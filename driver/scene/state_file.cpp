@@ -114,20 +114,19 @@ void write_state_csv(OutputFile& file, const State& state) {
   file.write({out.data(), out.size()});
 }
 
-State read_state(const std::string& path) {
-  const std::string text = read_text_file(path);
-  check_end(path, text);
-  if (trimmed(std::string_view(text).substr(0, text.find('\n'))) == csv_header) {
-    return read_csv(path, text);
-  }
+State read_state(const std::string& path) { return parse_state(read_text_file(path), path); }
+
+State parse_state(std::string_view text, const std::string& name) {
+  check_end(name, text);
+  if (trimmed(text.substr(0, text.find('\n'))) == csv_header) return read_csv(name, text);
   try {
-    std::istringstream in(text);
+    std::istringstream in{std::string(text)};
     return read_listing_frame(in);
   } catch (const std::runtime_error& error) {
     throw InputError(
         fmt::format("{}: {} (allowed is the listing's format, 4F12.4, or a file that "
                     "begins with {})",
-                    path, error.what(), csv_header));
+                    name, error.what(), csv_header));
   }
 }
 

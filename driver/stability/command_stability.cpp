@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/scene/load_problem.hpp"
+#include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/scene/step_check.hpp"
 #include "driver/stability/edge_row.hpp"
@@ -26,6 +27,7 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
@@ -78,6 +80,7 @@ Case load_case(const Options& options) {
   SceneFile file = SceneFile::find(options.scene);
   for (const std::string& setting : options.settings) file.set(setting);
   if (!options.initial.empty()) file.note_origin("initial state", options.initial);
+  check_memory(file, "auto", available_memory());
   std::optional<State> initial = load_start(options.initial);
   Problem problem = load_problem(file, initial);
   return {std::move(file), std::move(initial), std::move(problem)};

@@ -27,6 +27,10 @@ std::string read_bytes(const std::string& path);
 /// naming file and line where it is no such text: UTF-16, another encoding, a zero byte, lines that
 /// end with a carriage return alone.
 std::string read_text_file(const std::string& path);
+/// The same of bytes that are there already; messages call them `name`.
+std::string text_of(std::string bytes, const std::string& name);
+/// Why a line is not UTF-8, to stand behind its name; "" if it is.
+std::string fault_of_line(std::string_view line);
 
 /// A text file being written. Throws std::runtime_error naming file and reason when a write fails,
 /// so that a full disk is noticed.
