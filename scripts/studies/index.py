@@ -38,6 +38,8 @@ ROWS = (
     Row("large-balls.md", "What a particle-step costs in balls of 360 to 10 million particles",
         "scripts/studies/large_balls.sh", "every repetition: [large-balls.json](large-balls.json)",
         ("large-balls.md", "large-balls.json", "large-balls.png")),
+    Row("crowded.md", "What it costs to ask for more threads than there are cores", "scripts/studies/crowded.py", "",
+        ("crowded.md",)),
     Row("monitor_cost.md", "What watching a run costs", "scripts/studies/monitor_cost.py", "", ("monitor_cost.md",)),
     Row("equivalence.txt", "Is it right: kernels against the oracle on whole runs",
         "bounce verify --full --out results/equivalence.txt", "", ("equivalence.txt",)),
