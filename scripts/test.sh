@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests everything: installs what is missing, checks the rules of the house and README's numbers, builds
-# with warnings as errors, compares the kernels with the oracle (bounce verify --quick), then runs all
-# tests. Exit code 0 only if all of it holds.
+# with warnings as errors, compares the kernels with the oracle (bounce verify --quick), runs all tests,
+# then each fuzz target for a minute. Exit code 0 only if all of it holds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,8 +12,13 @@ scripts/readme_numbers.py --check || failed+=('readme_numbers.py --check (its li
 scripts/build.sh ci
 build/ci/bounce verify --quick || failed+=('bounce verify --quick (its table is above the tests)')
 ctest --preset ci -j2 --output-log build/ci/ctest.log || failed+=(ctest)
+# (3: skipped, as clang is not here.)
+fuzzed=0
+scripts/fuzz.sh 60 || fuzzed=$?
+((fuzzed == 0 || fuzzed == 3)) || failed+=('fuzz.sh (its lines are above)')
 # Again at the end: ctest lists what it skipped after its summary.
 grep 'tests passed' build/ci/ctest.log || failed+=('ctest, which wrote no summary')
+((fuzzed != 3)) || echo 'fuzz targets: skipped (the reason is above)'
 if ((${#failed[@]})); then
   printf 'test.sh: failed: %s\n' "${failed[@]}" >&2
   exit 1

@@ -1,0 +1,32 @@
+// States that --initial reads, in either format.
+#include <sys/mman.h>
+
+#include "driver/scene/state_file.hpp"
+#include "verify/tests/fuzz/fuzz_target.hpp"
+
+namespace {
+
+// Through a file in memory; its name is that of what holds it.
+bounce::State there_and_back(const bounce::State& state) {
+  const int descriptor = ::memfd_create("state", MFD_CLOEXEC);
+  bounce::must_hold(descriptor >= 0, "a file in memory can be made");
+  const std::string path = "/proc/self/fd/" + std::to_string(descriptor);
+  bounce::OutputFile file(descriptor, path);
+  bounce::write_state_csv(file, state);
+  file.flush();
+  return bounce::read_state(path);
+}
+
+void read_and_write(std::string bytes) {
+  const bounce::State state =
+      bounce::parse_state(bounce::text_of(std::move(bytes), "input"), "input");
+  if (!bounce::is_finite(state)) return;  // a problem refuses it
+  bounce::must_hold(bounce::state_hash(there_and_back(state)) == bounce::state_hash(state),
+                    "a state that is written reads back the same");
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return bounce::fuzz(data, size, read_and_write);
+}
