@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "driver/run/extended_xyz.hpp"
-#include "driver/run/ledger_csv.hpp"
-#include "driver/run/monitor_csv.hpp"
+#include "driver/output/extended_xyz.hpp"
+#include "driver/output/ledger_csv.hpp"
+#include "driver/output/monitor_csv.hpp"
 #include "driver/run/run_record.hpp"
 #include "driver/run/run_summary.hpp"
 #include "driver/run/trouble_text.hpp"
@@ -455,8 +455,7 @@ TEST(RunSummary, TellsEachNumberWhereItBelongs) {
   const std::string text = summary_text(findings);
   for (const char* part :
        {"energy: 62.5 erg lost to the walls, 64.5 erg gained from drift; it swings by 66 erg",
-        "ledgers DO NOT CLOSE, every reflection booked",
-        " 7.2e+01 cm/s (1.7e+02, 2.7e+02)",
+        "ledgers DO NOT CLOSE, every reflection booked", " 7.2e+01 cm/s (1.7e+02, 2.7e+02)",
         "energy DOES NOT CLOSE from step 77 (t = 19.25 s) on: 7.45e+01 erg left over, at most "
         "7.65e+01 explained",
         "78 reflections MISSED, 79 otherwise"}) {
