@@ -74,6 +74,7 @@ std::vector<Case> make_cases(const Options& options) {
     cases.push_back({name, scene, std::min(steps, whole), true, {}});
   }
   for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (scenes[i].walls.empty()) continue;
     const std::int64_t steps = options.quick ? quick_steps : wall_steps;
     cases.push_back({options.scenes[i] + " at the wall", at_the_wall(scenes[i]), steps, true, {}});
   }
@@ -195,10 +196,10 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
   command->add_option("--vector", options->vector, "auto, avx2 or avx512");
   command->add_option("--out", options->out, "Write the table to this file, too");
   command->footer(
-      "Each scene is also run for a short while from just above its wall, at the speed of its\n"
-      "impact, so that short checks reach the contact. Where no scene is named, those of other "
-      "walls\n"
-      "come on top: ceilings, slopes, two walls, starts on a wall and behind it.\n"
+      "Each scene with walls is also run for a short while from just above its wall, at the\n"
+      "speed of its impact, so that short checks reach the contact. Where no scene is named,\n"
+      "those of other walls come on top: ceilings, slopes, two walls, starts on a wall and\n"
+      "behind it.\n"
       "Examples:\n"
       "  bounce verify --quick\n"
       "  bounce verify example-2 example-5\n"
