@@ -25,6 +25,10 @@ class RunGauges {
            const WallBooks* books = nullptr);
   [[nodiscard]] const LedgerInterval& last() const { return ledger_.last(); }
   [[nodiscard]] RunFindings findings() const;
+  template <class Words>
+  void serialize(Words& words) {
+    words(ledger_, bounce_);
+  }
 
  private:
   Ledger ledger_;

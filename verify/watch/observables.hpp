@@ -45,6 +45,12 @@ struct Bounce {
   std::optional<double> restitution;
   double greatest_flattening = 0.0;  ///< of the shapes given
   double greatest_flattening_time = 0.0;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(lowest_centre, lowest_centre_time, first_contact, last_contact, contact_time,
+          rebound_height, energy_lost, restitution, greatest_flattening, greatest_flattening_time);
+  }
 };
 
 /// What the walls did in the interval between two samples.
@@ -70,6 +76,12 @@ class BounceGauge {
   /// The shape at that time.
   void add_shape(double time, const Shape& shape);
   [[nodiscard]] const Bounce& result() const { return bounce_; }
+  template <class Words>
+  void serialize(Words& words) {
+    words(bounce_, any_, touched_, start_energy_, last_time_, last_momentum_.x, last_momentum_.y,
+          impact_, impact_over_, arriving_.x, arriving_.y, leaving_.x, leaving_.y, impulse_.x,
+          impulse_.y);
+  }
 
  private:
   void add_sample(double time, const Sample& sample);

@@ -15,8 +15,8 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   EXPECT_EQ(err(), "");  // no progress where there is no terminal
   EXPECT_EQ(names(), Words{"runs"});
   EXPECT_EQ(names("runs"), Words{"example-2"});
-  EXPECT_EQ(names("runs/example-2"),
-            (Words{"final.csv", "frames.extxyz", "monitor.csv", "run.json", "scene.toml"}));
+  EXPECT_EQ(names("runs/example-2"), (Words{"checkpoint", "final.csv", "frames.extxyz",
+                                            "monitor.csv", "run.json", "scene.toml"}));
   const fs::path at = folder_ / "runs/example-2";
   EXPECT_EQ(entry(at / "run.json", "status"), "\"complete\"");
   EXPECT_EQ(entry(at / "run.json", "steps"), "20000");
@@ -144,8 +144,8 @@ TEST_F(DriverRunTest, AFinalStateContinuesToTheBit) {
 TEST_F(DriverRunTest, TheListingsFramesCanBeReadBack) {
   ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--listing-frames", "--out", "r"}), 0)
       << err();
-  EXPECT_EQ(names("r"), (Words{"BAL4.OUT", "final.csv", "frames.extxyz", "monitor.csv", "run.json",
-                               "scene.toml"}));
+  EXPECT_EQ(names("r"), (Words{"BAL4.OUT", "checkpoint", "final.csv", "frames.extxyz",
+                               "monitor.csv", "run.json", "scene.toml"}));
   EXPECT_EQ(lines(contents(folder_ / "r/BAL4.OUT")), 360U);
   // Read as a start, it is the first frame, number for number.
   ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--initial", "r/BAL4.OUT", "--out", "s"}), 0)
@@ -175,7 +175,7 @@ TEST_F(DriverRunTest, ListingFramesComeEachMillionSteps) {
       << err();
   const Words files = names("r");
   EXPECT_EQ(Words(files.begin(), files.begin() + 3), (Words{"BAL4.OUT", "BAL4.OUT1", "BAL4.OUT2"}));
-  EXPECT_EQ(files[3], "final.csv");
+  EXPECT_EQ(files[3], "checkpoint");
 }
 
 // A step so short that the scene's own end would be too many of them.
@@ -192,7 +192,7 @@ TEST_F(DriverRunTest, StepsReplaceAnEndThatIsTooFar) {
 
 TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
   const pid_t child = start({"run", "example-2", "--t-end", "100000", "--out", "r"});
-  wait_for("r.partial-");
+  wait_for("r.part");
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child), 130) << err();
