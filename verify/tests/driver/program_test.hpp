@@ -22,18 +22,11 @@
 
 #include <gtest/gtest.h>
 
+#include "verify/tests/driver/file_contents.hpp"
+
 namespace bounce {
 
-namespace fs = std::filesystem;
-
 using Words = std::vector<std::string>;
-
-inline std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 inline std::ptrdiff_t lines(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n');

@@ -2,12 +2,20 @@
 #include <omp.h>
 #include <sched.h>
 
+#include "driver/scene/state_file.hpp"
 #include "verify/tests/driver/program_test.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {
 
-using DriverRunTest = ProgramTest;
+class DriverRunTest : public ProgramTest {
+ protected:
+  // The last state of a run's directory.
+  [[nodiscard]] State state_in(const fs::path& directory) const {
+    return read_state((folder_ / directory / "final.csv").string());
+  }
+};
 
 TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   ASSERT_EQ(run({"run", "example-2", "--steps", "20000", "--set", "output.frames_every=0.01"}), 0)
@@ -33,6 +41,7 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   // The resolved scene runs again, to the same bits.
   ASSERT_EQ(run({"run", "runs/example-2/scene.toml", "--out", "again", "--quiet"}), 0) << err();
   EXPECT_EQ(out(), "");
+  EXPECT_TRUE(same_state(state_in("again"), state_in("runs/example-2")));
   EXPECT_EQ(entry(folder_ / "again/run.json", "state_hash"), hash);
 }
 
@@ -137,6 +146,7 @@ TEST_F(DriverRunTest, AFinalStateContinuesToTheBit) {
   ASSERT_EQ(run({"run", "example-5", "--steps", "5000", "--out", "c"}), 0) << err();
   const std::string hash = entry(folder_ / "b/run.json", "state_hash");
   EXPECT_EQ(hash.size(), 18U);
+  EXPECT_TRUE(same_state(state_in("b"), state_in("c")));
   EXPECT_EQ(hash, entry(folder_ / "c/run.json", "state_hash"));
   EXPECT_NE(hash, entry(folder_ / "runs/example-5/run.json", "state_hash"));
 }
@@ -201,6 +211,10 @@ TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
   EXPECT_EQ(entry(folder_ / "r/run.json", "status"), "\"interrupted\"");
   EXPECT_GT(std::stol(entry(folder_ / "r/run.json", "steps")), 0);
   EXPECT_EQ(lines(contents(folder_ / "r/final.csv")), 361U);
+  // The last row of the monitor is of the last state.
+  const std::string monitor = contents(folder_ / "r/monitor.csv");
+  const std::string row = monitor.substr(monitor.rfind('\n', monitor.size() - 2) + 1);
+  EXPECT_NEAR(std::stod(row), std::stod(entry(folder_ / "r/run.json", "time")), 1e-9) << row;
 }
 
 TEST_F(DriverRunTest, SetChangesWhatRuns) {
