@@ -8,6 +8,8 @@
 #include <limits>
 #include <mutex>
 
+#include "verify/figures/contact_gauge.hpp"
+
 namespace bounce {
 namespace {
 
@@ -21,15 +23,18 @@ class Together {
   explicit Together(const ReferenceTick& tick) : tick_(tick) {}
 
   template <class Solve>
-  ReferencePath follow(std::size_t outputs, const Solve& solve) {
+  ReferencePath follow(const Problem& problem, std::size_t outputs, const Solve& solve) {
     ReferencePath path;
+    ContactGauge gauge(problem);
     path.states.reserve(outputs);
     try {
-      path.run = solve([&](double, const State& state) {
+      const ReferenceVisitor visit = [&](double, const State& state) {
         if (failed_.load()) throw Abandoned{};
         path.states.push_back(state);
         if (tick_) tick_();
-      });
+      };
+      path.run = solve(visit, &gauge);
+      path.bounce = gauge.result();
     } catch (const Abandoned&) {
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -56,15 +61,17 @@ ReferencePair solve_pair(const Problem& problem, std::span<const double> times,
                          const More& more) {
   Together together(tick);
   auto fixed = std::async(std::launch::async, [&] {
-    return together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-      return solve_fixed(problem, times, settings.fixed, visit);
-    });
+    return together.follow(problem, times.size(),
+                           [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+                             return solve_fixed(problem, times, settings.fixed, visit, watch);
+                           });
   });
   ReferencePair pair;
   pair.times.assign(times.begin(), times.end());
-  pair.adaptive = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-    return solve_adaptive(problem, times, settings.adaptive, visit);
-  });
+  pair.adaptive = together.follow(
+      problem, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+        return solve_adaptive(problem, times, settings.adaptive, visit, watch);
+      });
   more(together);
   pair.fixed = fixed.get();
   together.rethrow();
@@ -100,9 +107,10 @@ DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> ti
   both.pair = solve_pair(problem, times, settings, tick, [&](Together& together) {
     Problem moved = problem;
     moved.initial = disturbed_start(problem, disturbance);
-    both.disturbed = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-      return solve_adaptive(moved, times, settings.adaptive, visit);
-    });
+    both.disturbed = together.follow(
+        moved, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+          return solve_adaptive(moved, times, settings.adaptive, visit, watch);
+        });
   });
   return both;
 }

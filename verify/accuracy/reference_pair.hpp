@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "verify/accuracy/reference_solution.hpp"
+#include "verify/figures/bounce.hpp"
 
 namespace bounce {
 
-/// A solution at the output times.
+/// A solution at the output times, and its figures (but for energies).
 struct ReferencePath {
   std::vector<State> states;
   ReferenceRun run;
+  Bounce bounce;
 };
 
 struct ReferencePair {
