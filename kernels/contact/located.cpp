@@ -46,13 +46,13 @@ class LocatedStepper final : public Stepper {
   [[nodiscard]] Snapshot save() const override {
     if (!is_inside_) return {state_, false, step_};
     Snapshot snapshot = inside_->save();
-    snapshot.own = {clear_until_};
+    snapshot.own = {static_cast<std::uint64_t>(clear_until_)};
     return snapshot;
   }
   void restore(const Snapshot& snapshot) override {
     step_ = snapshot.step;
-    is_inside_ = !snapshot.own.empty();
-    clear_until_ = is_inside_ ? snapshot.own.front() : -1;
+    is_inside_ = snapshot.own.size() == 1;
+    clear_until_ = is_inside_ ? static_cast<std::int64_t>(snapshot.own.front()) : -1;
     if (is_inside_) {
       inside_->restore(snapshot);
       return;

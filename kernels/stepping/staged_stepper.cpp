@@ -74,7 +74,10 @@ void StagedStepper::advance(std::int64_t steps) {
 State StagedStepper::state() const {
   State state(particles_);
   read(state);
-  if (stage_held_) finish_step(model_, state);
+  if (stage_held_) {
+    finish_step(model_, state);
+    conform(state);
+  }
   return state;
 }
 

@@ -12,9 +12,9 @@ namespace bounce {
 /// A state as a kernel holds it between steps: enough to go on, bit for bit, as if never stopped.
 struct Snapshot {
   State state;
-  bool stage_held = false;          ///< the last stage of the last step is still due (method.hpp)
-  std::int64_t step = 0;            ///< steps taken
-  std::vector<std::int64_t> own{};  ///< what only the kernel that saved it understands
+  bool stage_held = false;           ///< the last stage of the last step is still due (method.hpp)
+  std::int64_t step = 0;             ///< steps taken
+  std::vector<std::uint64_t> own{};  ///< what only the kernel that saved it understands
 };
 
 /// When a wall acted in a step of a kernel that locates contacts: s after the step's start.

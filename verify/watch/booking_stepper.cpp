@@ -10,12 +10,12 @@
 #include "kernels/model/powers.hpp"
 #include "kernels/model/wall_rule.hpp"
 #include "verify/watch/monitor.hpp"
+#include "verify/watch/words.hpp"
 
 namespace bounce {
 namespace {
 
 constexpr std::int64_t longest_block = 4096;  // steps: far more than saving and comparing costs
-constexpr std::size_t snapshots_kept = 4;
 // Roundings of a mirrored coordinate: distance, twice it, product and difference, for each wall.
 constexpr double rule_roundings = 16.0;
 
@@ -359,19 +359,21 @@ State BookingStepper::state() const { return with_walls_->state(); }
 
 Snapshot BookingStepper::save() const {
   Snapshot snapshot = with_walls_->save();
-  saved_.push_back({snapshot, done_});
-  if (saved_.size() > snapshots_kept) saved_.pop_front();
+  WordWriter words([&snapshot](std::span<const std::uint64_t> some) {
+    snapshot.own.insert(snapshot.own.end(), some.begin(), some.end());
+  });
+  words(done_, block_);
+  words.finish();
   return snapshot;
 }
 
 void BookingStepper::restore(const Snapshot& snapshot) {
   with_walls_->restore(snapshot);
-  const auto same = std::find_if(saved_.rbegin(), saved_.rend(), [&](const Saved& saved) {
-    return saved.snapshot.step == snapshot.step && same_bits(saved.snapshot.state, snapshot.state);
-  });
-  if (same != saved_.rend()) {
-    done_ = same->books;
-  } else {
+  try {
+    WordReader words(snapshot.own);
+    words(done_, block_);
+    words.finish();
+  } catch (const WordsError&) {  // another kernel's
     open_books();
   }
   book_unfinished();

@@ -23,7 +23,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -47,8 +46,7 @@ class BookingStepper final : public Stepper {
   void advance(std::int64_t steps) override;
   [[nodiscard]] State state() const override;
   [[nodiscard]] Snapshot save() const override;
-  /// Going back to one of the last snapshots saved here brings back the books of then; with any
-  /// other snapshot new books begin.
+  /// A snapshot saved by a BookingStepper has the books of then; with any other new books begin.
   void restore(const Snapshot& snapshot) override;
   [[nodiscard]] std::int64_t step() const override;
 
@@ -57,10 +55,6 @@ class BookingStepper final : public Stepper {
 
  private:
   struct StageKernels;
-  struct Saved {
-    Snapshot snapshot;
-    WallBooks books;
-  };
 
   void open_books();
   void add_stage(Stage stage, std::vector<std::size_t>& sequence);
@@ -78,7 +72,6 @@ class BookingStepper final : public Stepper {
   std::int64_t block_ = 1;                   // steps to be taken at a time
   WallBooks done_;                           // of the kernel's own walls
   WallBooks books_;                          // and of those of the copy that is read out
-  mutable std::deque<Saved> saved_;
 };
 
 }  // namespace bounce

@@ -14,6 +14,10 @@ class CompensatedSum {
     sum_ = sum;
   }
   [[nodiscard]] double value() const { return sum_ + lost_; }
+  template <class Words>
+  void serialize(Words& words) {
+    words(sum_, lost_);
+  }
 
  private:
   double sum_ = 0.0;

@@ -40,6 +40,11 @@ struct StepRounding {
   RoundingSize momentum_x, momentum_y;  ///< cm/s
   RoundingSize angular;                 ///< about the centre of mass, cm^2/s
   RoundingSize energy;                  ///< erg
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(momentum_x, momentum_y, angular, energy);
+  }
 };
 
 /// A state as a ledger sees it. Unit masses, cgs.
@@ -52,6 +57,11 @@ struct Inspection {
   double fastest = 0.0;    ///< greatest speed of a particle, cm/s
   StepRounding step;
   RoundingSize angular, energy;  ///< of measuring the state itself
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(swing, internal, frequency, nearest, behind, fastest, step, angular, energy);
+  }
 };
 
 /// Energy that the terms left out of the modified energy may come to, erg: their relative size, for

@@ -45,6 +45,11 @@ struct LedgerLine {
   std::int64_t fault_step = -1;  ///< of the sample at which it first did not close; -1: it closes
 
   [[nodiscard]] bool closes() const { return fault_step < 0; }
+
+  template <class Words>
+  void serialize(Words& words) {  // name and unit are its place's
+    words(residual, likely, allowed, fault_step);
+  }
 };
 
 /// What the ledgers say of a run so far. Energies are erg, since the start.
@@ -77,6 +82,12 @@ struct LedgerInterval {
   double swing = 0.0, drift = 0.0;
   Vec2 momentum_residual;
   double angular_residual = 0.0;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(contact, reflections, impulse.x, impulse.y, torque, kinetic, gravity, bond, walls, swing,
+          drift, momentum_residual.x, momentum_residual.y, angular_residual);
+  }
 };
 
 class Ledger {
@@ -94,6 +105,13 @@ class Ledger {
   [[nodiscard]] const LedgerInterval& last() const { return interval_; }
   [[nodiscard]] LedgerReport report() const;
 
+  template <class Words>
+  void serialize(Words& words) {
+    words(start_, before_, interval_, momentum_x_, momentum_y_, angular_, stretch_, free_energy_,
+          behind_, walls_, impulse_x_, impulse_y_, torque_, free_steps_, greatest_swing_,
+          booked_fault_);
+  }
+
  private:
   struct Look {
     std::int64_t step = 0;
@@ -101,17 +119,29 @@ class Ledger {
     Inspection inspection;
     WallBooks books;
     [[nodiscard]] double modified() const { return sample.total() + inspection.swing; }
+    template <class Words>
+    void serialize(Words& words) {
+      words(step, sample, inspection, books);
+    }
   };
   struct Balance {
     CompensatedSum residual;
     RoundingSize rounding;
     std::int64_t fault_step = -1;
+    template <class Words>
+    void serialize(Words& words) {
+      words(residual, rounding, fault_step);
+    }
   };
   // Intervals without contact, in a row. The one nearest to its allowance is reported.
   struct Stretch {
     double start = 0.0;  // modified energy
     RoundingSize steps;  // roundings since
     double left_out = 0.0;
+    template <class Words>
+    void serialize(Words& words) {
+      words(start, steps, left_out);
+    }
   };
 
   void measure_walls(const Look& now);

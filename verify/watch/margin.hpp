@@ -40,12 +40,21 @@ class MarginGauge {
   /// Lets Lanczos work. Nothing if no state with a finite stiffness has been added.
   [[nodiscard]] std::optional<Margin> result() const;
 
+  template <class Words>
+  void serialize(Words& words) {
+    words(worst_, dropped_);
+  }
+
  private:
   struct Look {
-    double part;  // by the bound
-    std::int64_t step;
-    StiffnessBound bound;
-    State state;  // empty where the ball is too large to keep it
+    double part = 0.0;  // by the bound
+    std::int64_t step = 0;
+    StiffnessBound bound{};
+    State state{};  // empty where the ball is too large to keep it
+    template <class Words>
+    void serialize(Words& words) {
+      words(part, step, bound.lambda, bound.first, bound.second, bound.ratio, state);
+    }
   };
   void keep(Look look, const State& state);
 

@@ -27,6 +27,12 @@ struct Sample {
   std::int64_t on_wall = 0;   ///< particles nearer to a wall than contact_distance, or behind it
 
   [[nodiscard]] double total() const { return kinetic + bond + gravity; }
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(kinetic, bond, gravity, momentum.x, momentum.y, angular_momentum, centre.x, centre.y,
+          lowest, smallest_ratio, ratio_first, ratio_second, fastest_bond, approach, on_wall);
+  }
 };
 
 /// A particle nearer to a wall than this counts as touching it, cm: the last decimal of the
@@ -70,6 +76,11 @@ class Watch {
   void accept(const Sample& sample);
   /// Energy that may appear before the run counts as unstable, erg.
   [[nodiscard]] double allowed_gain() const { return allowed_gain(fall_); }
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(start_, motion_, floor_, fall_);
+  }
 
  private:
   [[nodiscard]] double allowed_gain(double fall) const;

@@ -27,6 +27,10 @@ struct RoundingSize {
     variance += times * other.variance;
   }
   [[nodiscard]] double likely() const { return std::sqrt(variance); }
+  template <class Words>
+  void serialize(Words& words) {
+    words(worst, variance);
+  }
 
  private:
   static constexpr double third = 1.0 / 3.0;  // no division: ledgers add thousands a sample

@@ -17,6 +17,11 @@ struct WallBook {
   CompensatedSum kinetic, gravity, bond;
   CompensatedSum impulse_x, impulse_y;  ///< cm/s (unit masses)
   CompensatedSum torque;                ///< change of the angular momentum about the centre of mass
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(reflections, kinetic, gravity, bond, impulse_x, impulse_y, torque);
+  }
 };
 
 /// The books of a run. Everything is a sum over the steps since the start.
@@ -41,6 +46,12 @@ struct WallBooks {
   [[nodiscard]] double energy_given() const;
   [[nodiscard]] Vec2 impulse() const;
   [[nodiscard]] double torque() const;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(walls, integrator, energy, energy_rounding, momentum_rounding, torque_rounding, missed,
+          otherwise, first_fault, unfinished);
+  }
 };
 
 }  // namespace bounce

@@ -13,10 +13,12 @@
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "kernels/model/state.hpp"
@@ -46,19 +48,28 @@ concept OneWord = std::is_same_v<T, double> || std::is_integral_v<T> || std::is_
 /// Writes numbers, enumerations, vectors, deques, optionals and what has a serialize().
 class WordWriter {
  public:
+  /// `sink` gets the words, some at a time.
+  explicit WordWriter(std::function<void(std::span<const std::uint64_t>)> sink)
+      : sink_(std::move(sink)) {}
   template <class... Parts>
   void operator()(const Parts&... parts) {
     (put(parts), ...);
   }
-  [[nodiscard]] const std::vector<std::uint64_t>& words() const { return words_; }
+  /// Hands on what is left.
+  void finish() {
+    sink_(some_);
+    some_.clear();
+  }
 
  private:
+  static constexpr std::size_t enough = 8192;  // words to be handed on at a time
+
   template <class T>
   void put(const T& value) {
     if constexpr (std::is_same_v<T, double>) {
-      words_.push_back(std::bit_cast<std::uint64_t>(value));
+      put_word(std::bit_cast<std::uint64_t>(value));
     } else if constexpr (OneWord<T>) {
-      words_.push_back(static_cast<std::uint64_t>(value));
+      put_word(static_cast<std::uint64_t>(value));
     } else if constexpr (requires(T & t, WordWriter & w) { t.serialize(w); }) {
       const_cast<T&>(value).serialize(*this);  // which only reads, here
     } else {
@@ -83,8 +94,13 @@ class WordWriter {
     put(values.size());
     for (const auto& value : values) put(value);
   }
+  void put_word(std::uint64_t word) {
+    some_.push_back(word);
+    if (some_.size() >= enough) finish();
+  }
 
-  std::vector<std::uint64_t> words_;
+  std::function<void(std::span<const std::uint64_t>)> sink_;
+  std::vector<std::uint64_t> some_;
 };
 
 /// Reads what a WordWriter wrote, in the same order. Throws WordsError where words are missing, or
