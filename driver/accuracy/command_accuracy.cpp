@@ -55,12 +55,12 @@ struct Reference {
   CourseErrors bar;
 };
 
-CourseRecord seen(const Problem& problem, int rings, const std::vector<double>& times,
-                  const std::vector<State>& states, std::size_t free_samples) {
-  CourseGauge gauge(problem, rings, free_samples);
-  for (std::size_t i = 0; i < times.size() && gauge.add(times[i], states[i]); ++i) {
+CourseRecord seen(const Problem& problem, const ReferencePath& path, std::size_t free_samples) {
+  CourseGauge gauge(problem, free_samples);
+  for (const State& state : path.states) {
+    if (!gauge.add(state)) break;
   }
-  return gauge.result();
+  return gauge.result(path.bounce);
 }
 
 Reference make_reference(const Study& study) {
@@ -75,16 +75,13 @@ Reference make_reference(const Study& study) {
         if (interrupted()) throw Stopped();
       });
   const ReferencePair& pair = paths.pair;
-  const int rings = rings_of(study.scene);
-  // By the contacts themselves: samples would miss the first bounces off an elastic wall.
   const std::size_t last = pair.last_before_contact();
   Reference reference;
-  reference.record = seen(problem, rings, times, pair.fixed.states, last > 0 ? last + 1 : 0);
-  const auto distance_of = [&](const std::vector<State>& states) {
-    return errors_of(seen(problem, rings, times, states, reference.record.free_samples),
-                     reference.record);
+  reference.record = seen(problem, pair.fixed, last > 0 ? last + 1 : 0);
+  const auto distance_of = [&](const ReferencePath& path) {
+    return bar_of(seen(problem, path, reference.record.free_samples), reference.record);
   };
-  reference.bar = larger_of(distance_of(pair.adaptive.states), distance_of(paths.disturbed.states));
+  reference.bar = larger_of(distance_of(pair.adaptive), distance_of(paths.disturbed));
   return reference;
 }
 

@@ -140,8 +140,8 @@ void reference(const Options& options, const std::string& command_line) {
     throw InputError(error.what());
   }
   const double disturbance = options.disturbance * shortest_bond(problem);
-  const ReferenceRecord record = make_reference_record(
-      scene, problem, steps, solve(problem, times, settings, disturbance), disturbance);
+  const ReferenceRecord record =
+      make_reference_record(problem, solve(problem, times, settings, disturbance), disturbance);
   write_files(directory.path(), record);
   write_file_whole(directory.path() / "scene.toml", to_toml(scene));
   write_file_whole(directory.path() / marker, reference_json(record, scene, settings, options.every,

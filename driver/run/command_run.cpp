@@ -143,7 +143,7 @@ void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end
 // null.
 RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
                    Stepper& stepper, const WallBooks* books, const fs::path& folder,
-                   RunFindings& findings, MarginGauge& margin) {
+                   BounceGauge figures, RunFindings& findings, MarginGauge& margin) {
   const Schedule schedule(scene, options.listing_frames);
   const auto time = [&scene](std::int64_t step) {
     return static_cast<double>(step) * scene.time.step;
@@ -155,8 +155,7 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
                                                    : problem.bonds.particles());
   Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
                     scene.time.step);
-  RunGauges gauges(problem, has_rings ? static_cast<int>(scene.ball.radii.size()) : 0,
-                   scene.time.step, books != nullptr);
+  RunGauges gauges(problem, std::move(figures), scene.time.step, books != nullptr);
   std::optional<LedgerCsv> ledger;
   if (books != nullptr) ledger.emplace(folder / "ledger.csv");
   RunHooks hooks;
@@ -173,8 +172,10 @@ RunResult simulate(const Options& options, const Scene& scene, const Problem& pr
   };
   hooks.progress = [&](std::int64_t step) { progress.update(step); };
   hooks.stop = interrupted;
+  hooks.next_look = [&](std::int64_t step) { return gauges.next_look(step); };
+  hooks.look = [&] { gauges.look(stepper); };
   RunResult result = run_loop(stepper, problem, schedule, hooks);
-  findings = gauges.findings();
+  findings = gauges.findings(stepper, result.status == RunStatus::unstable);
   monitor.close();
   if (ledger) ledger->close();
   frames.close();
@@ -277,12 +278,13 @@ int run(const Options& options, const std::string& command_line) {
   const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
   record.plan = make_plan(problem, options.request, entries);
   auto [stepper, books] = make_run_stepper(options, record, problem);
+  BounceGauge figures(problem, record.scene.time.step, remake(record.plan));
   problem.initial = State();  // the stepper holds the particles now
 
   write_text(directory.path() / "scene.toml", to_toml(record.scene));
   MarginGauge margin(problem);
   record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
-                           record.findings, margin);
+                           std::move(figures), record.findings, margin);
   record.margin = margin.result();
   if (const RunResult& result = record.result; result.trouble) {
     record.trouble_report =

@@ -110,11 +110,16 @@ void RunLoop::find_trouble() {
 
 RunResult RunLoop::run() {
   const auto start = Clock::now();
+  if (hooks_.look) hooks_.look();
   bool good = look(RunStatus::complete);
   while (good && result_.status == RunStatus::complete && stepper_.step() < schedule_.end()) {
-    const std::int64_t before = stepper_.step();
-    if (!advance_to(schedule_.next(before))) result_.status = RunStatus::interrupted;
-    if (stepper_.step() > before) good = look(result_.status);
+    const std::int64_t before = stepper_.step(), event = schedule_.next(before);
+    const std::int64_t next_look = hooks_.next_look ? hooks_.next_look(before) : event;
+    if (!advance_to(std::min(event, next_look))) result_.status = RunStatus::interrupted;
+    const std::int64_t now = stepper_.step();
+    if (now == next_look && hooks_.look) hooks_.look();
+    const bool interrupted = result_.status == RunStatus::interrupted;
+    if (now == event || (interrupted && now > before)) good = look(result_.status);
   }
   result_.seconds = seconds_since(start);
   result_.steps_timed = stepper_.step();

@@ -12,13 +12,18 @@
 
 namespace bounce {
 
-/// What a run tells its surroundings. Called only with states that the watch has passed.
+/// What a run tells its surroundings. Called only with states that the watch has passed,
+/// but for `look`.
 struct RunHooks {
   std::function<void(std::int64_t step, const Sample&, const State&)> sample;
   std::function<void(std::int64_t step, const State&)> frame;
   std::function<void(std::int64_t step, const State&)> listing_frame;
   std::function<void(std::int64_t step)> progress;  ///< about twenty times a second or more
   std::function<bool()> stop;                       ///< asked as often; true ends the run
+  /// The first step after that one at which `look` wants to be called; empty: at none. It is called
+  /// at the start, too, and before the watch has passed the state.
+  std::function<std::int64_t(std::int64_t step)> next_look{};
+  std::function<void()> look{};
 };
 
 enum class RunStatus { complete, interrupted, unstable };

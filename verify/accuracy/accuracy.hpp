@@ -70,9 +70,6 @@ Problem problem_of(const Scene& scene, const std::optional<State>& initial, cons
 /// ball of many particles turns into minutes.
 bool worth_locating(const Scene& scene);
 
-/// Number of rings as measure_shape wants it: 0 for a ball without.
-int rings_of(const Scene& scene);
-
 /// Why no kernel can run the scene by a setting, whatever its step; "" if one can.
 std::string plan_refusal(const Scene& scene, const std::optional<State>& initial,
                          const Setting& setting, const Sampling& sampling);

@@ -29,11 +29,11 @@ struct Baseline {
   std::string_view name, source;
   BaselineContact contact = BaselineContact::located;
   /// Solves to the last of `times`, as solve_adaptive does, by a step or a tolerance; `tick` is
-  /// called at least every output time and may throw. Throws ReferenceError for what it cannot
-  /// solve.
+  /// called at least every output time and may throw. `figures`, if any, is filled. Throws
+  /// ReferenceError for what it cannot solve.
   std::function<BaselineWork(const Problem& problem, double parameter,
                              std::span<const double> times, const ReferenceVisitor& visit,
-                             const std::function<void()>& tick)>
+                             const std::function<void()>& tick, Bounce* figures)>
       solve;
   /// Its parameter is a tolerance, and its steps are as long as that allows.
   [[nodiscard]] bool adaptive() const { return contact == BaselineContact::located; }

@@ -101,6 +101,17 @@ ActFinder::Place ActFinder::go(const Snapshot& from, std::int64_t steps) {
   return {stepper.save(), stepper.state()};
 }
 
+State ActFinder::part_of_step(const State& start, std::int64_t parts) {
+  if (!fine_) {
+    Problem fine = problem_;
+    fine.step /= static_cast<double>(parts_of_step);
+    fine_ = make_(fine);
+  }
+  fine_->restore({start, false, 0, {}});
+  fine_->advance(parts);
+  return fine_->state();
+}
+
 std::vector<WallReport> ActFinder::reports_of(const Snapshot& from, std::int64_t steps,
                                               std::size_t wall) {
   go(from, steps);
@@ -242,7 +253,8 @@ ActFinder::Within ActFinder::within_step(const Snapshot& before, std::size_t wal
                         std::abs(way.rate_before) <= hover * strength * h;
     Within here{0.0, which == Which::first ? 0.0 : h};
     if (stands && pull.acceleration < 0.0 && which == Which::last) {
-      here = release(i, wall, before, pull).value_or(Within{h, steps_to_release * h});
+      const double late = steps_to_release * h;
+      here = release(i, wall, before, pull).value_or(Within{late, late - h});
     } else if (way.before > rounding && !stands) {
       here = way.comes_to_zero();
     }
@@ -259,8 +271,9 @@ WallAct ActFinder::act_at(const Snapshot& before, const Within& within, Which wh
   const State state = first ? go(before, 0).state : go(before, 1).state;
   const double flight = within.time - (first ? 0.0 : problem_.step);
   const Vec2 v = centre_velocity(state);
+  // Times are said in the nominal step.
   const double start = static_cast<double>(before.step) * time_step_;
-  return {start + within.time,
+  return {start + within.time * (time_step_ / problem_.step),
           within.found_to + 4.0 * std::numeric_limits<double>::epsilon() * (start + problem_.step),
           {v.x + problem_.gravity.x * flight, v.y + problem_.gravity.y * flight}};
 }

@@ -58,6 +58,10 @@ class ActFinder {
     State state;  ///< all stages done
   };
   Place go(const Snapshot& from, std::int64_t steps);
+  /// The state some parts of a step on, of parts_of_step, which are steps of the same method.
+  State part_of_step(const State& start, std::int64_t parts);
+  static constexpr std::int64_t parts_of_step = 16;
+
   /// s after the start of a step.
   struct Within {
     double time, found_to;
@@ -84,7 +88,7 @@ class ActFinder {
   double time_step_;
   Make make_;
   BondForces<double> forces_;
-  std::unique_ptr<Stepper> with_;
+  std::unique_ptr<Stepper> with_, fine_;
   std::vector<std::unique_ptr<Stepper>> without_;  // of each wall
   bool reports_ = false;
   std::vector<WallReport> reported_;

@@ -45,11 +45,11 @@ Figure time_of(std::vector<Impact> impacts) {
 }
 
 // Newton's, of one impact.
-std::optional<Figure> restitution_of(const Impact& impact, const Problem& problem) {
-  const Wall& wall = problem.walls[impact.wall];
+std::optional<Figure> restitution_of(const Impact& impact, const Model& model) {
+  const Wall& wall = model.walls[impact.wall];
   const double in = -along(impact.first.velocity, wall.normal);
   const double out = along(impact.last.velocity, wall.normal);
-  const double pull = -along(problem.gravity, wall.normal);
+  const double pull = -along(model.gravity, wall.normal);
   const double impulse = in + out + pull * (impact.last.time - impact.first.time);
   constexpr double least_share = 0.01;
   if (impact.acts_now || !(out > 0.0) || !(in > least_share * impulse)) return std::nullopt;
@@ -84,7 +84,7 @@ Figure energy_lost(const Sample& start, const Sample& now) {
   for (const Sample& sample : {start, now}) {
     sizes += std::abs(sample.kinetic) + std::abs(sample.bond) + std::abs(sample.gravity);
   }
-  return {start.total() - now.total(), 8.0 * epsilon * sizes};
+  return {start.total() - now.total(), 2.0 * epsilon * sizes};
 }
 
 double time_rounding(double time) { return 4.0 * epsilon * std::abs(time); }
@@ -97,12 +97,9 @@ bool came_back(const Wall& wall, const WallAct& last, const WallAct& next, doubl
 
 double least_flight(double look_interval) { return 1.25 * look_interval; }
 
-void add_contacts(const std::vector<Impact>& impacts, const Problem& problem, Bounce& bounce) {
+void add_contacts(const std::vector<Impact>& impacts, const Model& model, Bounce& bounce) {
   bounce.contact_time = time_of(impacts);
-  if (impacts.empty()) {
-    bounce.rebound_height.reset();
-    return;
-  }
+  if (impacts.empty()) return;
   const auto& first = *std::min_element(
       impacts.begin(), impacts.end(),
       [](const Impact& a, const Impact& b) { return a.first.time < b.first.time; });
@@ -111,7 +108,7 @@ void add_contacts(const std::vector<Impact>& impacts, const Problem& problem, Bo
                         [](const Impact& a, const Impact& b) { return a.last.time < b.last.time; });
   bounce.first_contact = Figure{first.first.time, first.first.found_to};
   bounce.last_contact = Figure{last.last.time, last.last.found_to};
-  bounce.restitution = restitution_of(first, problem);
+  bounce.restitution = restitution_of(first, model);
 }
 
 void Extremes::after_add(double lowest_before, double rounding) {

@@ -100,7 +100,7 @@ bool came_back(const Wall& wall, const WallAct& last, const WallAct& next, doubl
 double least_flight(double look_interval);
 
 /// The figures that impacts make.
-void add_contacts(const std::vector<Impact>& impacts, const Problem& problem, Bounce& bounce);
+void add_contacts(const std::vector<Impact>& impacts, const Model& model, Bounce& bounce);
 
 /// The extremes of a course, look by look.
 class Extremes {

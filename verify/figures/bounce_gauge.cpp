@@ -22,18 +22,29 @@ std::int64_t steps_in(double interval, double step) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(interval / step, most)));
 }
 
+double extremes_quantum(double time_step) {
+  return time_step / static_cast<double>(ActFinder::parts_of_step);
+}
+
 double along(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 
 }  // namespace
 
+ActFinder::Make remake(const Plan& plan) {
+  const std::string kernel = plan.kernel == "oracle" ? "strict"  // has its bits, for any walls
+                             : plan.inside.empty()   ? plan.kernel
+                                                     : plan.inside;
+  return [kernel](const Problem& problem) { return make_stepper(problem, {kernel, "auto", 1}); };
+}
+
 BounceGauge::BounceGauge(const Problem& problem, double time_step, ActFinder::Make make)
-    : problem_(std::make_shared<const Problem>(problem)),
+    : model_(std::make_shared<const Model>(problem)),
       time_step_(time_step),
       walls_(problem.walls.size()) {
   const double interval = look_interval(problem);
   least_flight_ = least_flight(interval);
   look_steps_ = steps_in(interval, problem.step);
-  extremes_ = Extremes(time_step, pieces_kept(problem.initial.size()));
+  extremes_ = Extremes(extremes_quantum(time_step), pieces_kept(problem.initial.size()));
   if (make && problem.initial.size() <= most_kept_particles) {
     finder_ = std::make_shared<ActFinder>(problem, time_step, std::move(make));
   }
@@ -55,7 +66,7 @@ void BounceGauge::look(const Stepper& stepper) {
 
 void BounceGauge::look(std::int64_t step, const State& state, KeptState kept) {
   if (ended_ || step <= last_step()) return;
-  BallLook now = look_at(*problem_, state);
+  BallLook now = look_at(*model_, state);
   if (!now.is_finite()) {
     ended_ = true;
     return;
@@ -74,15 +85,15 @@ ActFinder* BounceGauge::finder(const KeptState& start) const {
 
 std::vector<std::size_t> BounceGauge::acting(const Interval& interval, const BallLook& before,
                                              const BallLook& now) const {
-  const double length = static_cast<double>(interval.steps()) * problem_->step;
-  const Vec2 g = problem_->gravity;
+  const double length = static_cast<double>(interval.steps()) * model_->step;
+  const Vec2 g = model_->gravity;
   const double pull = std::hypot(g.x, g.y), fastest = std::max(before.fastest, now.fastest);
   const double reach = 2.0 * fastest * length + pull * length * length;
   const double unexplained = std::hypot(now.velocity.x - before.velocity.x - g.x * length,
                                         now.velocity.y - before.velocity.y - g.y * length);
   const bool pushed = unexplained > gravity_share * pull * length + velocity_share * fastest;
   std::vector<std::size_t> near;
-  for (std::size_t w = 0; w < problem_->walls.size(); ++w) {
+  for (std::size_t w = 0; w < model_->walls.size(); ++w) {
     if (!(std::min(before.nearest[w], now.nearest[w]) > reach)) near.push_back(w);
   }
   if (near.empty() && !pushed) return near;
@@ -90,7 +101,7 @@ std::vector<std::size_t> BounceGauge::acting(const Interval& interval, const Bal
   ActFinder* const again = finder(interval.start);
   if (again == nullptr) return pushed ? near : std::vector<std::size_t>{};
   std::vector<std::size_t> found;
-  for (std::size_t w = 0; w < problem_->walls.size(); ++w) {
+  for (std::size_t w = 0; w < model_->walls.size(); ++w) {
     const bool is_near = std::find(near.begin(), near.end(), w) != near.end();
     if ((is_near || near.empty()) && again->acts(*interval.start, interval.steps(), w)) {
       found.push_back(w);
@@ -107,7 +118,7 @@ void BounceGauge::add_act(std::size_t wall, const Interval& interval) {
   }
   if (may_have_come_back(wall, open->last, interval)) {
     const WallAct last = last_act(open->last, wall), next = first_act(interval, wall);
-    if (came_back(problem_->walls[wall], last, next, least_flight_)) {
+    if (came_back(model_->walls[wall], last, next, least_flight_)) {
       over_.push_back({wall, open->first, last});
       open->first = next;
     }
@@ -119,8 +130,8 @@ void BounceGauge::add_act(std::size_t wall, const Interval& interval) {
 // within each the centre's speed changes by no more than gravity makes it.
 bool BounceGauge::may_have_come_back(std::size_t wall, const Interval& before,
                                      const Interval& now) const {
-  const Vec2 normal = problem_->walls[wall].normal;
-  const double pull = std::abs(along(problem_->gravity, normal)) * problem_->step;
+  const Vec2 normal = model_->walls[wall].normal;
+  const double pull = std::abs(along(model_->gravity, normal)) * model_->step;
   const bool left =
       along(before.velocity_after, normal) + pull * static_cast<double>(before.steps()) > 0.0;
   const bool comes =
@@ -163,9 +174,11 @@ Bounce BounceGauge::result() const {
   Bounce bounce;
   if (!last_) return bounce;
   const auto again = [this](double at, const KeptState& from) {
-    ActFinder::Place place = finder_->go(*from, std::llround(at / time_step_) - from->step);
-    return Extremes::SeenAgain{look_at(*problem_, place.state),
-                               KeptState(std::move(place.snapshot))};
+    constexpr std::int64_t parts = ActFinder::parts_of_step;
+    const std::int64_t tick = std::llround(at / extremes_quantum(time_step_));
+    ActFinder::Place place = finder_->go(*from, tick / parts - from->step);
+    if (tick % parts > 0) place.state = finder_->part_of_step(place.state, tick % parts);
+    return Extremes::SeenAgain{look_at(*model_, place.state), KeptState(std::move(place.snapshot))};
   };
   extremes_.put_into(bounce, finder_ ? Extremes::SeeAgain(again) : Extremes::SeeAgain{});
   std::vector<Impact> impacts = over_;
@@ -174,11 +187,15 @@ Bounce BounceGauge::result() const {
     if (!walls_[w]) continue;
     Impact impact{w, walls_[w]->first, last_act(walls_[w]->last, w)};
     // What is held at the end is so up to then.
-    impact.acts_now = walls_[w]->last.to == last_->step && impact.last.time >= now - time_step_;
-    impact.last.time = std::min(impact.last.time, now);
+    impact.acts_now = impact.last.time >= now - time_rounding(now);
+    if (impact.acts_now) {
+      const double later = impact.last.time - now;
+      impact.last.found_to = std::max(time_rounding(now), impact.last.found_to - later);
+      impact.last.time = now;
+    }
     impacts.push_back(impact);
   }
-  add_contacts(impacts, *problem_, bounce);
+  add_contacts(impacts, *model_, bounce);
   return bounce;
 }
 

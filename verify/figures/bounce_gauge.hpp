@@ -4,7 +4,8 @@
 //     writes and when. So the figures have the same bits for any output.monitor_every.
 //  2. It keeps the states of the last looks, of the intervals with the last acts and of those that
 //     may hold an extreme, and can go back to them with steppers of its own (ActFinder): to find the
-//     first and the last act of an impact to a small part of a step, and extremes to rounding.
+//     first and the last act of an impact to a small part of a step, and extremes to roundings or to
+//     what steps a sixteenth as long, from the step before on, tell.
 //  3. Which walls act in an interval: none that no particle can reach (twice the greatest speed seen
 //     at both ends, and the way of gravity), as long as gravity explains the change of momentum. One
 //     wall in reach and momentum that gravity does not explain: that one. Else the interval is taken
@@ -22,11 +23,15 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/plan/plan.hpp"
 #include "kernels/stepping/stepper.hpp"
 #include "verify/figures/act_finder.hpp"
 #include "verify/figures/bounce.hpp"
 
 namespace bounce {
+
+/// Makes the kernel of a plan for other problems: the same bits, on one thread.
+ActFinder::Make remake(const Plan& plan);
 
 inline constexpr std::size_t most_kept_particles = 100'000;
 
@@ -105,7 +110,7 @@ class BounceGauge {
   [[nodiscard]] WallAct first_act(const Interval& interval, std::size_t wall) const;
   [[nodiscard]] WallAct last_act(const Interval& interval, std::size_t wall) const;
 
-  std::shared_ptr<const Problem> problem_;
+  std::shared_ptr<const Model> model_;
   double time_step_;
   double least_flight_;
   std::int64_t look_steps_;

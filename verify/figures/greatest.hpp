@@ -8,7 +8,7 @@
 //  2. So each piece has a bound. A piece whose bound is below a value that was seen is done with.
 //     The others are kept, and searched at the end, the one with the highest bound first: looked at
 //     where the bound is highest, and divided there, until no bound is above what was seen by more
-//     than roundings, or the pieces are single steps. Most are overtaken by later looks before that.
+//     than roundings, or the pieces are as short as can be. Most are overtaken by later looks before that.
 //  3. Where nothing can be looked at again (a ball too large to keep its states), or too often, what
 //     the bounds leave open is part of found_to().
 //

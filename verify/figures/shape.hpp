@@ -6,10 +6,9 @@
 namespace bounce {
 
 struct Shape {
-  double width = 0.0;   ///< extent in x, cm
-  double height = 0.0;  ///< extent in y, cm
-  double flattening =
-      0.0;  ///< 1 - shorter/longer principal axis of the outer ring (flattening_of)
+  double width = 0.0;       ///< extent in x, cm
+  double height = 0.0;      ///< extent in y, cm
+  double flattening = 0.0;  ///< 1 - shorter/longer principal axis of the outer ring (flattening_of)
   /// Signed area inside the inner ring, cm^2; falls to 0 or below on collapse. NaN without rings.
   double enclosed = 0.0;
   double spin = 0.0;  ///< angular momentum / moment of inertia, rad/s; negative = clockwise

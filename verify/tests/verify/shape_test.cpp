@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kernels/model/problem.hpp"
 #include "verify/tests/paper_scenes.hpp"
 
 namespace bounce {
