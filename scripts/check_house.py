@@ -13,7 +13,7 @@ import sys
 # A room includes from itself and from the rooms before it, but for what NEVER says.
 ROOMS = [
     "kernels/model", "kernels/stepping", "kernels/rings", "kernels/csr", "kernels/contact", "kernels/plan",
-    "verify/vibrations", "verify/watch", "verify/oracle", "verify/stability", "verify/accuracy",
+    "verify/vibrations", "verify/watch", "verify/figures", "verify/oracle", "verify/stability", "verify/accuracy",
     "driver/world", "driver/scene", "driver/output", "driver/run", "driver/stability", "driver/accuracy", "driver/extremes",
     "driver", "bench", "verify/tests",
 ]

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "driver/run/run_gauges.hpp"
 #include "driver/world/origin.hpp"
 
 namespace bounce {
@@ -21,45 +21,25 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 Json number(std::optional<double> value) { return value ? number(*value) : Json(); }
 
-struct Sampled {
+std::vector<Sample> sample_path(const Problem& problem, const ReferencePath& path) {
   std::vector<Sample> samples;
-  Bounce bounce;
-};
-
-Sampled sample_path(const Scene& scene, const Problem& problem,
-                    const std::vector<std::int64_t>& steps, const ReferencePath& path) {
-  const int rings =
-      scene.ball.kind == BallKind::rings ? static_cast<int>(scene.ball.radii.size()) : 0;
-  // The gauges of a run multiply steps by the step; here time is nominal.
-  Problem nominal = problem;
-  nominal.step = scene.time.step;
-  RunGauges gauges(nominal, rings, scene.time.step, false);
-  Sampled sampled;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    sampled.samples.push_back(measure(problem, path.states[k]));
-    gauges.add(steps[k], sampled.samples.back(), path.states[k]);
-  }
-  sampled.bounce = gauges.findings().bounce;
-  return sampled;
+  samples.reserve(path.states.size());
+  for (const State& state : path.states) samples.push_back(measure(problem, state));
+  return samples;
 }
 
-double speed_of(const Sample& sample, double particles) {
-  return std::hypot(sample.momentum.x, sample.momentum.y) / particles;
-}
-
-// `size`: of what the value is a difference; the error bar is no less than a rounding of it.
-Observable observable(std::string_view name, std::string_view unit, std::optional<double> fixed,
-                      std::optional<double> adaptive, double size = 0.0) {
-  Observable result{name, unit, fixed, std::nullopt};
+// The difference of the two, and no less than what was found of either is good to, or a rounding.
+Observable observable(std::string_view name, std::string_view unit,
+                      const std::optional<Figure>& fixed, const std::optional<Figure>& adaptive) {
+  Observable result{name, unit, {}, {}};
+  if (fixed) result.value = fixed->value;
   if (!fixed || !adaptive) return result;
-  const double rounding = std::max(std::abs(*fixed), size) * std::numeric_limits<double>::epsilon();
-  const double apart = std::abs(*fixed - *adaptive);
-  result.error = apart <= rounding ? rounding : apart;  // a NaN stays
+  const double apart = std::abs(fixed->value - adaptive->value);
+  const double rounding = std::abs(fixed->value) * std::numeric_limits<double>::epsilon();
+  const double least = std::max({fixed->found_to, adaptive->found_to, rounding});
+  result.error = apart <= least ? least : apart;  // a NaN stays
   return result;
 }
-
-// -1 stands for never.
-std::optional<double> when(double time) { return time >= 0.0 ? std::optional(time) : std::nullopt; }
 
 double end_distance(const ReferencePair& pair) {
   return largest_distance(pair.adaptive.states.back(), pair.fixed.states.back());
@@ -98,42 +78,42 @@ constexpr std::array<std::string_view, 8> row_names{"cx",      "cy",   "vx",    
 
 }  // namespace
 
-ReferenceRecord make_reference_record(const Scene& scene, const Problem& problem,
-                                      const std::vector<std::int64_t>& steps, DisturbedPair paths,
+ReferenceRecord make_reference_record(const Problem& problem, DisturbedPair paths,
                                       double disturbance) {
   ReferenceRecord record;
   record.paths = std::move(paths);
   record.disturbance = disturbance;
-  Sampled adaptive = sample_path(scene, problem, steps, record.pair().adaptive);
-  Sampled fixed = sample_path(scene, problem, steps, record.pair().fixed);
-  record.adaptive = std::move(adaptive.samples);
-  record.fixed = std::move(fixed.samples);
-  record.adaptive_bounce = adaptive.bounce;
-  record.fixed_bounce = fixed.bounce;
+  for (const auto& [path, samples, bounce] :
+       {std::tuple(&record.pair().adaptive, &record.adaptive, &record.adaptive_bounce),
+        std::tuple(&record.pair().fixed, &record.fixed, &record.fixed_bounce)}) {
+    *samples = sample_path(problem, *path);
+    *bounce = path->bounce;
+    bounce->energy_lost = energy_lost(samples->front(), samples->back());
+  }
   return record;
 }
 
 std::vector<Observable> observables_of(const ReferenceRecord& record) {
-  const auto particles = static_cast<double>(record.pair().fixed.states.front().size());
-  const Sample& f = record.fixed.back();
-  const Sample& a = record.adaptive.back();
-  const Bounce& fb = record.fixed_bounce;
-  const Bounce& ab = record.adaptive_bounce;
-  return {
-      observable("end_height", "cm", f.centre.y, a.centre.y),
-      observable("end_speed", "cm/s", speed_of(f, particles), speed_of(a, particles)),
-      observable("rebound_height", "cm", fb.rebound_height, ab.rebound_height),
-      observable("contact_time", "s", fb.contact_time, ab.contact_time),
-      observable("energy_lost", "erg", fb.energy_lost, ab.energy_lost, std::abs(f.bond)),
-      observable("greatest_flattening", "1", fb.greatest_flattening, ab.greatest_flattening, 1.0),
-      observable("greatest_flattening_time", "s", fb.greatest_flattening_time,
-                 ab.greatest_flattening_time),
-      observable("restitution", "1", fb.restitution, ab.restitution),
-      observable("lowest_centre", "cm", fb.lowest_centre, ab.lowest_centre),
-      observable("lowest_centre_time", "s", fb.lowest_centre_time, ab.lowest_centre_time),
-      observable("first_contact", "s", when(fb.first_contact), when(ab.first_contact)),
-      observable("last_contact", "s", when(fb.last_contact), when(ab.last_contact)),
-  };
+  constexpr std::array order{&Bounce::end_height,
+                             &Bounce::end_speed,
+                             &Bounce::rebound_height,
+                             &Bounce::contact_time,
+                             &Bounce::energy_lost,
+                             &Bounce::greatest_flattening,
+                             &Bounce::greatest_flattening_time,
+                             &Bounce::restitution,
+                             &Bounce::lowest_centre,
+                             &Bounce::lowest_centre_time,
+                             &Bounce::first_contact,
+                             &Bounce::last_contact};
+  std::vector<Observable> all;
+  for (const auto figure : order) {
+    const auto name = std::find_if(figure_names.begin(), figure_names.end(),
+                                   [&](const FigureName& each) { return each.figure == figure; });
+    all.push_back(observable(name->name, name->unit, record.fixed_bounce.*figure,
+                             record.adaptive_bounce.*figure));
+  }
+  return all;
 }
 
 void write_reference_csv(OutputFile& file, const ReferenceRecord& record) {

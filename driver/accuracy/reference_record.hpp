@@ -9,20 +9,20 @@
 #include "driver/world/files.hpp"
 #include "kernels/model/scene.hpp"
 #include "verify/accuracy/reference_pair.hpp"
+#include "verify/figures/bounce.hpp"
 #include "verify/watch/monitor.hpp"
-#include "verify/watch/observables.hpp"
 
 namespace bounce {
 
-/// A quantity of a scene with its error bar: the difference of the two solutions, and no less than
-/// a rounding of the value.
+/// A figure of a scene with its error bar: the difference of the two solutions, and no less than what
+/// either was found to.
 struct Observable {
   std::string_view name, unit;
   std::optional<double> value;  ///< of the fixed-step solution; none: it has none
   std::optional<double> error;  ///< none: one of the solutions has no value
 };
 
-/// The two solutions, sampled at the output times as a run is.
+/// The two solutions, sampled at the output times, and their figures.
 struct ReferenceRecord {
   DisturbedPair paths;
   std::vector<Sample> adaptive, fixed;
@@ -32,9 +32,8 @@ struct ReferenceRecord {
   [[nodiscard]] const ReferencePair& pair() const { return paths.pair; }
 };
 
-/// Samples the paths. `steps`: the output times in the scene's nominal steps.
-ReferenceRecord make_reference_record(const Scene& scene, const Problem& problem,
-                                      const std::vector<std::int64_t>& steps, DisturbedPair paths,
+/// Samples the paths.
+ReferenceRecord make_reference_record(const Problem& problem, DisturbedPair paths,
                                       double disturbance);
 
 /// Height and speed of the centre at the end, rebound height, contact time, energy lost, greatest

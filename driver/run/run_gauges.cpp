@@ -1,18 +1,30 @@
 #include "driver/run/run_gauges.hpp"
 
+#include <utility>
+
 namespace bounce {
 
-RunGauges::RunGauges(const Problem& problem, int rings, double time_step, bool full)
-    : ledger_(problem, full), bounce_(problem.walls), rings_(rings), time_step_(time_step) {}
+RunGauges::RunGauges(const Model& model, BounceGauge figures, double time_step, bool full)
+    : ledger_(model, full),
+      figures_(std::move(figures)),
+      at_sample_(figures_),
+      time_step_(time_step),
+      integrated_step_(model.step) {}
 
 void RunGauges::add(std::int64_t step, const Sample& sample, const State& state,
                     const WallBooks* books) {
-  const double time = static_cast<double>(step) * time_step_;
   ledger_.add(step, state, sample, books);
-  bounce_.add(time, sample, {ledger_.last().contact, ledger_.last().impulse});
-  bounce_.add_shape(time, rings_ == 0 ? measure_shape(state) : measure_shape(state, rings_));
+  at_sample_ = figures_;
+  if (!start_) start_ = sample;
+  now_ = sample;
 }
 
-RunFindings RunGauges::findings() const { return {ledger_.report(), bounce_.result(), time_step_}; }
+RunFindings RunGauges::findings(const Stepper& stepper, bool back) const {
+  BounceGauge figures = back ? at_sample_ : figures_;
+  figures.look(stepper);
+  RunFindings findings{ledger_.report(), figures.result(), time_step_, integrated_step_};
+  if (start_) findings.bounce.energy_lost = energy_lost(*start_, now_);
+  return findings;
+}
 
 }  // namespace bounce

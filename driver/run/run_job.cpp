@@ -132,6 +132,8 @@ RunHooks make_hooks(const RunJob& job, const Schedule& schedule, Stepper& steppe
   };
   hooks.progress = [&](std::int64_t step) { progress.update(step); };
   hooks.stop = interrupted;
+  hooks.next_look = [&writer](std::int64_t step) { return writer.next_look(step); };
+  hooks.look = [&writer, &stepper] { writer.look(stepper); };
   if (job.checkpoint_every <= 0.0) return hooks;
   hooks.checkpoint_due = [&] { return checkpoints.due(); };
   hooks.checkpoint = [&](const std::function<void(WordWriter&)>& loop) {
@@ -147,13 +149,15 @@ void simulate(const RunJob& job, RunDirectory& directory, Stepper& stepper, cons
   std::optional<WordReader> from;
   if (job.from) from.emplace(job.from->words);
   const Schedule schedule(job.scene, job.settings.listing_frames);
-  RunWriter writer(job.scene, job.problem, directory.path(), books, from ? &*from : nullptr);
+  BounceGauge figures(job.problem, job.scene.time.step, remake(record.plan));
+  RunWriter writer(job.scene, job.problem, directory.path(), std::move(figures), books,
+                   from ? &*from : nullptr);
   Progress progress(::isatty(STDERR_FILENO) != 0 && !job.settings.quiet, schedule.end(),
                     job.scene.time.step);
   Checkpoints checkpoints(job, record.plan, directory, writer);
   const RunHooks hooks = make_hooks(job, schedule, stepper, writer, progress, checkpoints);
   record.result = run_loop(stepper, job.problem, schedule, hooks, from ? &*from : nullptr);
-  record.findings = writer.finish();
+  record.findings = writer.finish(stepper, record.result.status == RunStatus::unstable);
   record.margin = writer.margin();
 }
 

@@ -41,6 +41,7 @@ class RunLoop {
   Snapshot good_;
   Watch watch_;
   RunResult result_;
+  std::int64_t figures_at_ = 0;  // step of the last call of hooks_.look
   bool looked_ = false;          // at the start
   double seconds_before_ = 0.0;  // of the run before it was gone on with
   Clock::time_point began_ = Clock::now();
@@ -51,13 +52,14 @@ class RunLoop {
 void RunLoop::write_down() {
   if (!hooks_.checkpoint) return;
   hooks_.checkpoint([this](WordWriter& words) {
-    words(stepper_.save(), good_, watch_, result_.start, seconds_before_ + seconds_since(began_));
+    words(stepper_.save(), good_, watch_, result_.start, figures_at_,
+          seconds_before_ + seconds_since(began_));
   });
 }
 
 void RunLoop::go_on(WordReader& words) {
   Snapshot now;
-  words(now, good_, watch_, result_.start, seconds_before_);
+  words(now, good_, watch_, result_.start, figures_at_, seconds_before_);
   stepper_.restore(now);
   looked_ = true;
 }
@@ -74,7 +76,8 @@ bool RunLoop::advance_to(std::int64_t target) {
     if (steps == chunk_ && seconds < 0.5 * chunk_seconds) chunk_ *= 2;
     if (seconds > chunk_seconds) chunk_ = std::max<std::int64_t>(1, steps / 2);
     hooks_.progress(stepper_.step());
-    if (hooks_.checkpoint_due && hooks_.checkpoint_due()) write_down();
+    const bool there = stepper_.step() == target;  // something else is due first
+    if (!there && hooks_.checkpoint_due && hooks_.checkpoint_due()) write_down();
   }
   return true;
 }
@@ -132,15 +135,22 @@ void RunLoop::find_trouble() {
 RunResult RunLoop::run() {
   bool good = looked_;
   if (!looked_) {
+    if (hooks_.look) hooks_.look();
     good = look(RunStatus::complete);
     if (good) write_down();
   }
   while (good && result_.status == RunStatus::complete && good_.step < schedule_.end()) {
-    const std::int64_t target = schedule_.next(good_.step);
-    if (!advance_to(target)) result_.status = RunStatus::interrupted;
-    const bool ends = result_.status == RunStatus::interrupted || target == schedule_.end();
-    if (ends) write_down();
-    if (stepper_.step() > good_.step) good = look(result_.status);
+    const std::int64_t event = schedule_.next(good_.step);
+    const std::int64_t figures = hooks_.next_look ? hooks_.next_look(figures_at_) : event;
+    const bool there = advance_to(std::min(event, figures));
+    if (!there) result_.status = RunStatus::interrupted;
+    const std::int64_t now = stepper_.step();
+    if (!there || now == schedule_.end()) write_down();
+    if (now == figures && hooks_.look) {
+      hooks_.look();
+      figures_at_ = now;
+    }
+    if (now == event || (!there && now > good_.step)) good = look(result_.status);
   }
   result_.seconds = seconds_before_ + seconds_since(began_);
   result_.steps_timed = stepper_.step();

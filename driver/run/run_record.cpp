@@ -97,6 +97,7 @@ std::string run_json(const RunRecord& record) {
   json["steps"] = result.step;
   json["steps_asked"] = record.steps_asked;
   json["time"] = static_cast<double>(result.step) * record.scene.time.step;
+  json["time_integrated"] = static_cast<double>(result.step) * record.findings.integrated_step;
   json["state_hash"] = fmt::format("{:016x}", state_hash(result.last));
   json["wall_seconds"] = result.seconds;
   json["steps_per_second"] = steps_per_second(result);

@@ -1,6 +1,8 @@
 #include "driver/run/run_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -24,15 +26,23 @@ std::string energy_text(const LedgerReport& ledger) {
                      passed(ledger.drift, "drift"), ledger.greatest_swing);
 }
 
+// A figure with as many digits as it was found to, 15 at most.
+std::string digits(const std::optional<Figure>& figure) {
+  if (!figure) return "-";
+  const double size = std::abs(figure->value), error = figure->found_to;
+  if (!(size > 0.0) || !(error > 0.0)) return fmt::format("{:.6g}", figure->value);
+  const double known = std::floor(std::log10(size)) - std::floor(std::log10(error));
+  return fmt::format("{:.{}g}", figure->value, std::clamp(static_cast<int>(known), 1, 6));
+}
+
 std::string contact_text(const Bounce& bounce) {
-  if (bounce.first_contact < 0.0) return "bounce: no contact\n";
+  if (!bounce.first_contact) return "bounce: no contact\n";
   std::string text = fmt::format(
-      "bounce: contact from {:.6g} s to {:.6g} s, {:.4g} s in all; centre lowest at {:.5g} cm, "
-      "then up to {:.5g} cm\n",
-      bounce.first_contact, bounce.last_contact, bounce.contact_time, bounce.lowest_centre,
-      bounce.rebound_height);
+      "bounce: contact from {} s to {} s, {} s in all; centre lowest at {} cm, then up to {} cm\n",
+      digits(bounce.first_contact), digits(bounce.last_contact), digits(bounce.contact_time),
+      digits(bounce.lowest_centre), digits(bounce.rebound_height));
   text += bounce.restitution
-              ? fmt::format("        coefficient of restitution {:.3f}\n", *bounce.restitution)
+              ? fmt::format("        coefficient of restitution {}\n", digits(bounce.restitution))
               : "        no coefficient of restitution: not left the wall, or no impact\n";
   return text;
 }
@@ -90,24 +100,26 @@ Json book_json(const WallBook& book) {
 
 std::string summary_text(const RunFindings& findings) {
   return energy_text(findings.ledger) + contact_text(findings.bounce) +
-         fmt::format("        greatest flattening {:.4f} at {:.6g} s\n",
-                     findings.bounce.greatest_flattening,
-                     findings.bounce.greatest_flattening_time) +
+         fmt::format("        greatest flattening {} at {} s\n",
+                     digits(findings.bounce.greatest_flattening),
+                     digits(findings.bounce.greatest_flattening_time)) +
          ledger_text(findings);
 }
 
 Json bounce_json(const RunFindings& findings) {
-  const Bounce& b = findings.bounce;
-  const bool touched = b.first_contact >= 0.0;
-  return {{"first_contact", touched ? Json(b.first_contact) : Json()},
-          {"last_contact", touched ? Json(b.last_contact) : Json()},
-          {"contact_time", b.contact_time},
-          {"lowest_centre", b.lowest_centre},
-          {"lowest_centre_time", b.lowest_centre_time},
-          {"rebound_height", touched ? Json(b.rebound_height) : Json()},
-          {"restitution", b.restitution ? Json(*b.restitution) : Json()},
-          {"greatest_flattening", b.greatest_flattening},
-          {"greatest_flattening_time", b.greatest_flattening_time}};
+  const Bounce& bounce = findings.bounce;
+  Json values, found_to;
+  for (const FigureName& each : figure_names) {
+    const auto& figure = bounce.*each.figure;
+    // Without contact the ball has not rebounded.
+    const bool is_known =
+        figure && (bounce.first_contact || each.figure != &Bounce::rebound_height);
+    const std::string name(each.name);
+    values[name] = is_known ? Json(figure->value) : Json();
+    found_to[name] = is_known && std::isfinite(figure->found_to) ? Json(figure->found_to) : Json();
+  }
+  values["found_to"] = found_to;
+  return values;
 }
 
 Json ledger_json(const RunFindings& findings) {

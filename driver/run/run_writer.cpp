@@ -12,10 +12,6 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-int rings_of_ball(const Scene& scene) {
-  return scene.ball.kind == BallKind::rings ? static_cast<int>(scene.ball.radii.size()) : 0;
-}
-
 std::size_t particles_of_ring(const Scene& scene, const Problem& problem) {
   return scene.ball.kind == BallKind::rings ? static_cast<std::size_t>(scene.ball.per_ring)
                                             : problem.bonds.particles();
@@ -31,11 +27,13 @@ std::optional<RunWriter::Sizes> RunWriter::read_sizes(WordReader* from) {
 }
 
 RunWriter::RunWriter(const Scene& scene, const Problem& problem, fs::path folder,
-                     const WallBooks* books, WordReader* from)
-    : RunWriter(scene, problem, std::move(folder), books, from, read_sizes(from)) {}
+                     BounceGauge figures, const WallBooks* books, WordReader* from)
+    : RunWriter(scene, problem, std::move(folder), std::move(figures), books, from,
+                read_sizes(from)) {}
 
 RunWriter::RunWriter(const Scene& scene, const Problem& problem, fs::path folder,
-                     const WallBooks* books, WordReader* from, std::optional<Sizes> sizes)
+                     BounceGauge figures, const WallBooks* books, WordReader* from,
+                     std::optional<Sizes> sizes)
     : folder_(std::move(folder)),
       time_step_(scene.time.step),
       books_(books),
@@ -43,7 +41,7 @@ RunWriter::RunWriter(const Scene& scene, const Problem& problem, fs::path folder
                      : MonitorCsv(folder_ / "monitor.csv")),
       frames_(folder_ / "frames.extxyz", particles_of_ring(scene, problem),
               sizes ? sizes->frames : 0),
-      gauges_(problem, rings_of_ball(scene), scene.time.step, books != nullptr),
+      gauges_(problem, std::move(figures), scene.time.step, books != nullptr),
       margin_(problem) {
   const fs::path ledger = folder_ / "ledger.csv";
   if (books != nullptr && sizes) ledger_.emplace(ledger, sizes->ledger);
@@ -89,11 +87,11 @@ void RunWriter::sync() {
   if (OutputFile* frames = frames_.file()) frames->sync();
 }
 
-RunFindings RunWriter::finish() {
+RunFindings RunWriter::finish(const Stepper& stepper, bool back) {
   monitor_.close();
   if (ledger_) ledger_->close();
   frames_.close();
-  return gauges_.findings();
+  return gauges_.findings(stepper, back);
 }
 
 }  // namespace bounce

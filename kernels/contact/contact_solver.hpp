@@ -36,53 +36,11 @@
 
 #include "kernels/contact/bond_forces.hpp"
 #include "kernels/contact/contact_run.hpp"
+#include "kernels/contact/resting.hpp"
 #include "kernels/model/problem.hpp"
+#include "kernels/stepping/stepper.hpp"
 
 namespace bounce {
-
-/// Which particles rest on a wall, and what that does to their motion.
-class Resting {
- public:
-  explicit Resting(const Problem& problem)
-      : walls_(&problem.walls), wall_(problem.initial.size(), -1) {}
-  /// Wall on which particle i rests; -1: none.
-  [[nodiscard]] int wall_of(std::size_t i) const { return wall_[i]; }
-  [[nodiscard]] bool slides(std::size_t i) const { return on(i).alpha == 1.0; }
-  void put(std::size_t i, std::size_t wall) {
-    wall_[i] = static_cast<int>(wall);
-    particles_.push_back(i);
-  }
-  void release(std::size_t i) {
-    wall_[i] = -1;
-    particles_.erase(std::find(particles_.begin(), particles_.end(), i));
-  }
-  [[nodiscard]] const std::vector<std::size_t>& particles() const { return particles_; }
-  void release_all() {
-    while (!particles_.empty()) release(particles_.back());
-  }
-  /// Takes from a vector of each particle (accelerations, velocities) what its wall does not let it
-  /// have: all of it if it sticks, the normal part if it slides.
-  template <class Real>
-  void hold(Real* x, Real* y) const {
-    for (const std::size_t i : particles_) hold(i, x[i], y[i]);
-  }
-  /// The same for a vector of particle i alone, which must be resting.
-  template <class Real>
-  void hold(std::size_t i, Real& x, Real& y) const {
-    const auto nx = static_cast<Real>(on(i).normal.x), ny = static_cast<Real>(on(i).normal.y);
-    const Real along = slides(i) ? ny * x - nx * y : Real(0);
-    x = ny * along;
-    y = -nx * along;
-  }
-
- private:
-  [[nodiscard]] const Wall& on(std::size_t i) const {
-    return (*walls_)[static_cast<std::size_t>(wall_[i])];
-  }
-  const std::vector<Wall>* walls_;
-  std::vector<int> wall_;
-  std::vector<std::size_t> particles_;
-};
 
 /// A Flow has: Real; forces(); begin(state, resting): a new start; attempt(left): a step of at most
 /// `left`, returns its length, above 0; retake(h): the same step, shorter; end(): the state (4 n
@@ -105,11 +63,15 @@ class ContactSolver {
 
   /// From the problem's start to the last of `times`, each of which is handed to `visit`.
   ContactRun run(std::span<const double> times,
-                 const std::function<void(double, const State&)>& visit) {
+                 const std::function<void(double, const State&)>& visit,
+                 ContactWatch* watch = nullptr) {
     behind_is_refused_ = true;
     result_.height_cut = static_cast<double>(floor_);
+    watch_ = watch;
+    if (watch_ != nullptr) watch_->begin(0.0, rounded(now()));
     begin_at_walls();
     restart();
+    tell_contacts(0);
     for (const double output : times) {
       const auto until = static_cast<Real>(output);
       while (time_ < until) advance(until);
@@ -144,6 +106,23 @@ class ContactSolver {
       state = rounded(start());
     } catch (const ContactError&) {  // not finite: for the caller to see
       state = rounded(end());
+    }
+  }
+  /// Adds what walls did in the last step(): the steps' times go from 0 to `length`.
+  void report(std::int64_t step, Real length, std::vector<WallReport>& to) const {
+    for (std::size_t w = 0; w < problem_.walls.size(); ++w) {
+      WallReport report{.step = step, .wall = w};
+      bool any = false;
+      for (const ContactEvent& event : result_.events) {
+        if (event.wall != w) continue;
+        if (!any) report.first = event.time;
+        report.last = event.time;
+        any = true;
+      }
+      for (const std::size_t i : resting_.particles()) {
+        if (resting_.wall_of(i) == static_cast<int>(w)) report.last = static_cast<double>(length);
+      }
+      if (any) to.push_back(report);
     }
   }
 
@@ -216,9 +195,30 @@ class ContactSolver {
       }
       cut = true;
     }
+    const Real began = time_;
     time_ = to_the_end && !cut ? until : time_ + h;
+    if (watch_ != nullptr) tell_step(began, h);
     flow_.accept();
-    if (event) act(*event);
+    if (!event) return;
+    const std::size_t before = result_.events.size();
+    act(*event);
+    tell_contacts(before);
+  }
+
+  void tell_step(Real began, Real h) {
+    bool made_anew = false;
+    watch_->step(static_cast<double>(time_), rounded(end()), [&](double time) {
+      made_anew = true;
+      flow_.retake(std::clamp(static_cast<Real>(time) - began, Real(0), h));
+      return rounded(end());
+    });
+    if (made_anew) flow_.retake(h);
+  }
+  // Of events from that one on, and where the motion goes on from.
+  void tell_contacts(std::size_t first) {
+    if (watch_ == nullptr) return;
+    for (std::size_t k = first; k < result_.events.size(); ++k) watch_->contact(result_.events[k]);
+    watch_->begin(static_cast<double>(time_), rounded(start()));
   }
 
   void arm() {
@@ -472,6 +472,7 @@ class ContactSolver {
   Real floor_ = 0;           // roundings of a distance, cm
   Real time_ = 0;
   bool behind_is_refused_ = false;
+  ContactWatch* watch_ = nullptr;
   ContactRun result_;
 };
 

@@ -61,6 +61,10 @@ class LocatedStepper final : public Stepper {
     if (snapshot.stage_held) finish_step(open_, state_);  // another kernel's
     inside_->conform(state_);
   }
+  bool report_walls(std::vector<WallReport>* to) override {
+    reports_ = to;
+    return true;
+  }
   [[nodiscard]] std::int64_t step() const override { return step_; }
 
  private:
@@ -85,6 +89,7 @@ class LocatedStepper final : public Stepper {
     is_inside_ = false;
     clear_until_ = -1;
     solver_.step(problem_.step, state_);
+    if (reports_ != nullptr) solver_.report(step_, problem_.step, *reports_);
     inside_->conform(state_);
     ++step_;
   }
@@ -127,6 +132,7 @@ class LocatedStepper final : public Stepper {
   bool is_inside_ = false;         // the state is that of inside_
   std::int64_t clear_until_ = -1;  // step up to which no particle can reach a wall
   std::int64_t step_ = 0;
+  std::vector<WallReport>* reports_ = nullptr;
 };
 
 std::string refusal_of(const Problem& problem) {

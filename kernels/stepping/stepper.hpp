@@ -1,6 +1,7 @@
 // What every kernel looks like from outside.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct Snapshot {
   std::vector<std::uint64_t> own{};  ///< what only the kernel that saved it understands
 };
 
+/// When a wall acted in a step of a kernel that locates contacts: s after the step's start.
+struct WallReport {
+  std::int64_t step = 0;  ///< steps taken before it
+  std::size_t wall = 0;
+  double first = 0.0, last = 0.0;
+};
+
 /// A kernel at work on one ball. Not thread-safe; advance() may use threads of its own.
 class Stepper {
  public:
@@ -29,6 +37,9 @@ class Stepper {
   virtual void restore(const Snapshot& snapshot) = 0;
   /// Puts a state that is off by roundings from what this kernel can hold into that form.
   virtual void conform(State& /*state*/) const {}
+  /// From now on adds there what each wall does in each step, if this kernel knows that (true); a
+  /// null pointer ends it.
+  virtual bool report_walls(std::vector<WallReport>* /*to*/) { return false; }
   /// Steps taken since the start.
   [[nodiscard]] virtual std::int64_t step() const = 0;
 };

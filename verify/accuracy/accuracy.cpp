@@ -9,6 +9,7 @@
 #include "kernels/model/ball.hpp"
 #include "kernels/plan/plan.hpp"
 #include "kernels/stepping/threads.hpp"
+#include "verify/figures/bounce_gauge.hpp"
 #include "verify/vibrations/spectrum.hpp"
 #include "verify/vibrations/stability_limit.hpp"
 
@@ -16,6 +17,17 @@ namespace bounce {
 namespace {
 
 const PlanRequest one_thread{"auto", "auto", 1};
+
+// Of a course that others are compared with: the samples before its first contact, and the last of
+// them.
+void keep_before_contact(Stepper& stepper, const Snapshot& start, std::int64_t steps_a_sample,
+                         std::int64_t free_samples, CourseRecord& record) {
+  record.free_samples = std::min(record.energy.size(), static_cast<std::size_t>(free_samples));
+  if (record.free_samples == 0) return;
+  stepper.restore(start);
+  stepper.advance((static_cast<std::int64_t>(record.free_samples) - 1) * steps_a_sample);
+  record.before = stepper.state();
+}
 
 AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
                 const Sampling& sampling, const CourseRecord& reference) {
@@ -28,15 +40,26 @@ AccuracyRow run(const Scene& scene, const std::optional<State>& initial, const S
   row.kernel = kernel_name(plan);
   row.evaluations = row.steps * problem.method->evaluations;
   const auto stepper = plan.make_stepper();
+  const Snapshot start = stepper->save();
   const bool compares = !reference.energy.empty();
-  CourseGauge gauge(problem, rings_of(scene),
-                    compares ? std::optional(reference.free_samples) : std::nullopt);
-  bool good = gauge.add(0.0, problem.initial);
-  for (std::int64_t s = 1; good && s <= sampling.samples; ++s) {
-    stepper->advance(setting.steps_a_sample);
-    good = gauge.add(sampling.every * static_cast<double>(s), stepper->state());
+  CourseGauge gauge(problem, compares ? std::optional(reference.free_samples) : std::nullopt);
+  const double nominal = sampling.every / static_cast<double>(setting.steps_a_sample);
+  BounceGauge figures(problem, nominal, remake(plan));
+  bool good = gauge.add(problem.initial);
+  figures.look(*stepper);
+  while (good && stepper->step() < row.steps) {
+    const std::int64_t now = stepper->step(),
+                       sample = (now / setting.steps_a_sample + 1) * setting.steps_a_sample;
+    stepper->advance(std::min(sample, figures.next(now)) - now);
+    if (figures.due(stepper->step()) || stepper->step() == row.steps) figures.look(*stepper);
+    if (stepper->step() == sample) good = gauge.add(stepper->state());
   }
-  row.record = gauge.result();
+  row.record = gauge.result(figures.result());
+  if (!compares && good) {
+    const double contact = figures.first_contact().value_or(sampling.end() + sampling.every);
+    keep_before_contact(*stepper, start, setting.steps_a_sample,
+                        static_cast<std::int64_t>(std::ceil(contact / sampling.every)), row.record);
+  }
   row.errors = errors_of(row.record, reference);
   return row;
 }
@@ -51,10 +74,6 @@ Sampling sampling_of(const Scene& scene, double every) {
 bool worth_locating(const Scene& scene) {
   constexpr std::int64_t most_particles = 5000;
   return ball_size(scene.ball).particles <= most_particles;
-}
-
-int rings_of(const Scene& scene) {
-  return scene.ball.kind == BallKind::rings ? static_cast<int>(scene.ball.radii.size()) : 0;
 }
 
 Problem problem_of(const Scene& scene, const std::optional<State>& initial, const Setting& setting,
@@ -106,7 +125,7 @@ std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>&
 std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const Scene& scene, const std::optional<State>& initial, std::span<const Setting> settings,
     const Sampling& sampling, const CourseRecord& reference, int threads,
-    const std::function<bool(std::size_t)>& done) {
+    const std::function<bool(std::size_t, const AccuracyRow&)>& done) {
   // The longest first, so that none is left over for one thread at the end.
   std::vector<std::size_t> order(settings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -123,7 +142,7 @@ std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const std::size_t i = order[k];
     rows[i] = run(scene, initial, settings[i], sampling, reference);
     const std::lock_guard lock(one_at_a_time);
-    if (!done(i)) go_on = false;
+    if (!done(i, rows[i])) go_on = false;
   });
   if (!go_on) return std::nullopt;
   return rows;

@@ -79,7 +79,7 @@ class Pilot {
     reference_ = row->front().record;
     const auto other = run({fine(1, smaller)}, reference_, exact, request_.initial);
     if (!other) return false;
-    known_to_ = error_of(other->front().errors, request_.observable);
+    known_to_ = error_of(bar_of(other->front().record, reference_), request_.observable);
     // In a collapse two courses may end alike by chance. A third, from a start some roundings away,
     // tells what the motion makes of roundings.
     const Setting again = fine(0, smaller);
@@ -88,7 +88,7 @@ class Pilot {
         disturbed_start(problem, std::max(least_disturbance, rounding_disturbance(problem)));
     const auto third = run({again}, reference_, exact, moved);
     if (!third) return false;
-    const double apart = error_of(third->front().errors, request_.observable);
+    const double apart = error_of(bar_of(third->front().record, reference_), request_.observable);
     if (!std::isnan(known_to_) && !(apart <= known_to_)) known_to_ = apart;  // a NaN stays
     return true;
   }
@@ -162,8 +162,9 @@ class Pilot {
                                                             const Sampling& sampling,
                                                             const std::optional<State>& start) {
     courses_ += all.size();
-    return measure_accuracy(request_.scene, start, all, sampling, reference, request_.threads,
-                            [this](std::size_t) { return !(request_.stop && request_.stop()); });
+    return measure_accuracy(
+        request_.scene, start, all, sampling, reference, request_.threads,
+        [this](std::size_t, const AccuracyRow&) { return !(request_.stop && request_.stop()); });
   }
   // The pilot's reference (0), and the course that says how well it is known (1): by the next best
   // method, as resolved contact leaves errors that do not fall as its order says; with located

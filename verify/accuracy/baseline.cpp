@@ -5,9 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "verify/accuracy/conservative.hpp"
 #include "verify/accuracy/gsl_flow.hpp"
+#include "verify/figures/bounce_gauge.hpp"
+#include "verify/figures/contact_gauge.hpp"
 #include "verify/vibrations/spectrum.hpp"
 
 namespace bounce {
@@ -61,13 +66,15 @@ std::vector<double> times_of(const Sampling& sampling) {
 struct Course {
   BaselineWork work;
   std::vector<State> states;
+  Bounce bounce;
   double seconds = 0.0;
   std::string unfinished;  // why; "" if it was finished
 };
 
+// `looks`: whether figures are found, which takes some time.
 Course solve_once(const Baseline& baseline, const Problem& problem, double parameter,
                   std::span<const double> times, double most_seconds,
-                  const std::function<void()>& tick) {
+                  const std::function<void()>& tick, bool looks) {
   Course course;
   course.states.reserve(times.size());
   const auto begin = Clock::now();
@@ -78,7 +85,8 @@ Course solve_once(const Baseline& baseline, const Problem& problem, double param
   try {
     course.work = baseline.solve(
         problem, parameter, times,
-        [&](double, const State& state) { course.states.push_back(state); }, in_time);
+        [&](double, const State& state) { course.states.push_back(state); }, in_time,
+        looks ? &course.bounce : nullptr);
   } catch (const OutOfTime&) {
     course.unfinished = "not finished within " + seconds_text(most_seconds);
   } catch (const ReferenceError& error) {
@@ -88,8 +96,8 @@ Course solve_once(const Baseline& baseline, const Problem& problem, double param
   return course;
 }
 
-AccuracyRow row_of(const Baseline& baseline, const Scene& scene, const Problem& problem,
-                   double parameter, const Course& course, std::span<const double> times,
+AccuracyRow row_of(const Baseline& baseline, const Problem& problem, double parameter,
+                   const Course& course, std::span<const double> times,
                    const CourseRecord& reference) {
   AccuracyRow row;
   row.setting.method = baseline.name;
@@ -103,38 +111,75 @@ AccuracyRow row_of(const Baseline& baseline, const Scene& scene, const Problem& 
                                          : std::nan("");
   row.kernel = "baseline";
   row.note = course.unfinished;
-  CourseGauge gauge(problem, rings_of(scene), reference.free_samples);
-  for (std::size_t k = 0; k < course.states.size(); ++k) {
-    if (!gauge.add(times[k], course.states[k])) break;
+  CourseGauge gauge(problem, reference.free_samples);
+  for (const State& state : course.states) {
+    if (!gauge.add(state)) break;
   }
-  row.record = gauge.result();
+  row.record = gauge.result(course.bounce);
   row.record.finite = row.record.finite && course.unfinished.empty();
   row.errors = errors_of(row.record, reference);
   return row;
 }
 
+// With a problem of its own.
+class OwnConservative final : public Stepper {
+ public:
+  explicit OwnConservative(Problem problem) : problem_(std::move(problem)), stepper_(problem_) {}
+  void advance(std::int64_t steps) override { stepper_.advance(steps); }
+  [[nodiscard]] State state() const override { return stepper_.state(); }
+  [[nodiscard]] Snapshot save() const override { return stepper_.save(); }
+  void restore(const Snapshot& snapshot) override { stepper_.restore(snapshot); }
+  [[nodiscard]] std::int64_t step() const override { return stepper_.step(); }
+  [[nodiscard]] std::int64_t evaluations() const { return stepper_.evaluations(); }
+
+ private:
+  Problem problem_;
+  ConservativeStepper stepper_;
+};
+
 BaselineWork solve_conservative(const Problem& problem, double step, std::span<const double> times,
-                                const ReferenceVisitor& visit, const std::function<void()>& tick) {
+                                const ReferenceVisitor& visit, const std::function<void()>& tick,
+                                Bounce* figures) {
   if (const std::string why = conservative_refusal(problem); !why.empty()) {
     throw ReferenceError(why);
   }
   Problem own = problem;
   own.step = step;
-  ConservativeStepper stepper(own);
+  OwnConservative stepper(own);
+  std::optional<BounceGauge> gauge;
+  if (figures != nullptr) {
+    gauge.emplace(own, step,
+                  [](const Problem& of) { return std::make_unique<OwnConservative>(of); });
+    gauge->look(stepper);
+  }
   for (const double time : times) {
     tick();
-    stepper.advance(std::llround(time / step) - stepper.step());
+    const std::int64_t output = std::llround(time / step);
+    while (stepper.step() < output) {
+      const std::int64_t now = stepper.step();
+      stepper.advance((gauge ? std::min(output, gauge->next(now)) : output) - now);
+      if (gauge && gauge->due(stepper.step())) gauge->look(stepper);
+    }
     visit(time, stepper.state());
   }
-  return {stepper.step(), stepper.evaluations()};
+  const BaselineWork work{stepper.step(), stepper.evaluations()};
+  if (gauge) {
+    gauge->look(stepper);
+    *figures = gauge->result();
+  }
+  return work;
 }
 
 // One of GSL's steppers, contacts located as in a reference.
 decltype(Baseline::solve) by_gsl(const gsl_odeiv2_step_type* type) {
   return [type](const Problem& problem, double tolerance, std::span<const double> times,
-                const ReferenceVisitor& visit, const std::function<void()>& tick) {
+                const ReferenceVisitor& visit, const std::function<void()>& tick, Bounce* figures) {
     GslFlow flow(problem, type, tolerance, tick);
-    const ReferenceRun run = ContactSolver<GslFlow>(problem, flow).run(times, visit);
+    // Not looked at again: a multistep method would begin afresh.
+    ContactGauge gauge(problem, false);
+    const ReferenceRun run = ContactSolver<GslFlow>(problem, flow)
+                                 .run(times, visit, figures != nullptr ? &gauge : nullptr);
+    if (figures != nullptr) *figures = gauge.result();
     return BaselineWork{run.steps, run.evaluations};
   };
 }
@@ -171,17 +216,19 @@ std::vector<BaselineRow> measure_baseline(const Baseline& baseline, const Scene&
   std::vector<BaselineRow> rows;
   const auto parameters = parameters_of(baseline, problem, sampling, sweep.values);
   for (const double parameter : parameters) {
-    const auto once = [&] {
-      return solve_once(baseline, problem, parameter, times, sweep.most_seconds, tick);
+    const auto once = [&](bool looks) {
+      return solve_once(baseline, problem, parameter, times, sweep.most_seconds, tick, looks);
     };
-    const Course course = once();
-    std::vector<double> seconds{course.seconds};
-    double spent = course.seconds;
-    for (; course.unfinished.empty() && spent < sweep.least_seconds; spent += seconds.back()) {
-      seconds.push_back(once().seconds);
+    const Course course = once(true);
+    // Timed without looks, but for a course that takes long, of which they are a small part.
+    const bool is_short = course.unfinished.empty() && course.seconds < 10.0 * sweep.least_seconds;
+    std::vector<double> seconds;
+    for (double spent = 0.0; is_short && spent < sweep.least_seconds; spent += seconds.back()) {
+      seconds.push_back(once(false).seconds);
     }
+    if (seconds.empty()) seconds.push_back(course.seconds);
     std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-    rows.push_back({row_of(baseline, scene, problem, parameter, course, times, reference),
+    rows.push_back({row_of(baseline, problem, parameter, course, times, reference),
                     seconds[seconds.size() / 2]});
     if (course.unfinished.empty()) continue;
     // A smaller parameter takes longer.

@@ -29,11 +29,11 @@ struct Baseline {
   std::string_view name, source;
   BaselineContact contact = BaselineContact::located;
   /// Solves to the last of `times`, as solve_adaptive does, by a step or a tolerance; `tick` is
-  /// called at least every output time and may throw. Throws ReferenceError for what it cannot
-  /// solve.
+  /// called at least every output time and may throw. `figures`, if any, is filled. Throws
+  /// ReferenceError for what it cannot solve.
   std::function<BaselineWork(const Problem& problem, double parameter,
                              std::span<const double> times, const ReferenceVisitor& visit,
-                             const std::function<void()>& tick)>
+                             const std::function<void()>& tick, Bounce* figures)>
       solve;
   /// Its parameter is a tolerance, and its steps are as long as that allows.
   [[nodiscard]] bool adaptive() const { return contact == BaselineContact::located; }
@@ -55,6 +55,11 @@ struct BaselineSweep {
 struct BaselineRow {
   AccuracyRow row;
   double seconds = 0.0;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(row, seconds);
+  }
 };
 
 /// Sweeps one baseline, one course after another. Steps are whole parts of the sampling interval,

@@ -6,7 +6,8 @@
 namespace bounce {
 
 ReferenceRun solve_adaptive(const Problem& problem, std::span<const double> times,
-                            const AdaptiveSettings& settings, const ReferenceVisitor& visit) {
+                            const AdaptiveSettings& settings, const ReferenceVisitor& visit,
+                            ContactWatch* watch) {
   check_output_times(times);
   // Below some roundings of a position no error estimate means anything.
   if (!(settings.tolerance >= 1e-15 && settings.tolerance <= 1e-2)) {
@@ -14,7 +15,7 @@ ReferenceRun solve_adaptive(const Problem& problem, std::span<const double> time
                                 ": allowed is 1e-15 to 0.01");
   }
   GslFlow flow(problem, gsl_odeiv2_step_rk8pd, settings.tolerance);
-  return ContactSolver<GslFlow>(problem, flow).run(times, visit);
+  return ContactSolver<GslFlow>(problem, flow).run(times, visit, watch);
 }
 
 }  // namespace bounce

@@ -114,14 +114,15 @@ class FixedFlow {
 }  // namespace
 
 ReferenceRun solve_fixed(const Problem& problem, std::span<const double> times,
-                         const FixedSettings& settings, const ReferenceVisitor& visit) {
+                         const FixedSettings& settings, const ReferenceVisitor& visit,
+                         ContactWatch* watch) {
   check_output_times(times);
   const double step = settings.step == 0.0 ? default_reference_step(problem) : settings.step;
   if (!(step > 0.0 && std::isfinite(step))) {
     throw std::invalid_argument("step " + std::to_string(step) + " s: allowed is above 0");
   }
   FixedFlow flow(problem, step);
-  return ContactSolver<FixedFlow>(problem, flow).run(times, visit);
+  return ContactSolver<FixedFlow>(problem, flow).run(times, visit, watch);
 }
 
 }  // namespace bounce

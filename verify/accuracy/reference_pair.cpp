@@ -7,6 +7,9 @@
 #include <future>
 #include <limits>
 #include <mutex>
+#include <utility>
+
+#include "verify/figures/contact_gauge.hpp"
 
 namespace bounce {
 namespace {
@@ -18,18 +21,27 @@ struct Abandoned {};
 // and its exception is the one that comes out.
 class Together {
  public:
-  explicit Together(const ReferenceTick& tick) : tick_(tick) {}
+  Together(const ReferenceTick& tick, const ReferenceKeeper& keeper)
+      : tick_(tick), keeper_(keeper) {}
 
   template <class Solve>
-  ReferencePath follow(std::size_t outputs, const Solve& solve) {
+  ReferencePath follow(const std::string& name, const Problem& problem, std::size_t outputs,
+                       const Solve& solve) {
     ReferencePath path;
+    if (keeper_.find) {
+      if (auto kept = keeper_.find(name)) return std::move(*kept);
+    }
+    ContactGauge gauge(problem);
     path.states.reserve(outputs);
     try {
-      path.run = solve([&](double, const State& state) {
+      const ReferenceVisitor visit = [&](double, const State& state) {
         if (failed_.load()) throw Abandoned{};
         path.states.push_back(state);
         if (tick_) tick_();
-      });
+      };
+      path.run = solve(visit, &gauge);
+      path.bounce = gauge.result();
+      if (keeper_.keep) keeper_.keep(name, path);
     } catch (const Abandoned&) {
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -44,6 +56,7 @@ class Together {
 
  private:
   const ReferenceTick& tick_;
+  const ReferenceKeeper& keeper_;
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -53,18 +66,20 @@ class Together {
 template <class More>
 ReferencePair solve_pair(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick,
-                         const More& more) {
-  Together together(tick);
+                         const ReferenceKeeper& keeper, const More& more) {
+  Together together(tick, keeper);
   auto fixed = std::async(std::launch::async, [&] {
-    return together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-      return solve_fixed(problem, times, settings.fixed, visit);
-    });
+    return together.follow("fixed", problem, times.size(),
+                           [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+                             return solve_fixed(problem, times, settings.fixed, visit, watch);
+                           });
   });
   ReferencePair pair;
   pair.times.assign(times.begin(), times.end());
-  pair.adaptive = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-    return solve_adaptive(problem, times, settings.adaptive, visit);
-  });
+  pair.adaptive = together.follow(
+      "adaptive", problem, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+        return solve_adaptive(problem, times, settings.adaptive, visit, watch);
+      });
   more(together);
   pair.fixed = fixed.get();
   together.rethrow();
@@ -90,19 +105,20 @@ std::size_t ReferencePair::last_before_contact() const {
 
 ReferencePair solve_both(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick) {
-  return solve_pair(problem, times, settings, tick, [](Together&) {});
+  return solve_pair(problem, times, settings, tick, {}, [](Together&) {});
 }
 
 DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> times,
                               const ReferenceSettings& settings, double disturbance,
-                              const ReferenceTick& tick) {
+                              const ReferenceTick& tick, const ReferenceKeeper& keeper) {
   DisturbedPair both;
-  both.pair = solve_pair(problem, times, settings, tick, [&](Together& together) {
+  both.pair = solve_pair(problem, times, settings, tick, keeper, [&](Together& together) {
     Problem moved = problem;
     moved.initial = disturbed_start(problem, disturbance);
-    both.disturbed = together.follow(times.size(), [&](const ReferenceVisitor& visit) {
-      return solve_adaptive(moved, times, settings.adaptive, visit);
-    });
+    both.disturbed = together.follow(
+        "disturbed", moved, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+          return solve_adaptive(moved, times, settings.adaptive, visit, watch);
+        });
   });
   return both;
 }

@@ -72,15 +72,17 @@ double default_reference_step(const Problem& problem);
 void check_output_times(std::span<const double> times);
 
 /// Solves from problem.initial at time 0 to the last of `times` (s, not below 0, increasing), each
-/// of which is a state handed to `visit`. Events lie within some roundings of the time, or of what
+/// of which is a state handed to `visit`; `watch`, if any, sees each step. Events lie within some roundings of the time, or of what
 /// decides them, of where they are; they are found in steps of the size of the ball's fastest
 /// vibration, so a contact that begins and ends within one is found by its turning point. Throws
 /// ReferenceError, std::invalid_argument for times or settings that cannot be, and whatever `visit`
 /// throws.
 ReferenceRun solve_adaptive(const Problem& problem, std::span<const double> times,
-                            const AdaptiveSettings& settings, const ReferenceVisitor& visit);
+                            const AdaptiveSettings& settings, const ReferenceVisitor& visit,
+                            ContactWatch* watch = nullptr);
 ReferenceRun solve_fixed(const Problem& problem, std::span<const double> times,
-                         const FixedSettings& settings, const ReferenceVisitor& visit);
+                         const FixedSettings& settings, const ReferenceVisitor& visit,
+                         ContactWatch* watch = nullptr);
 
 /// The start moved: each coordinate of a particle by at most `size` (cm), evenly distributed and
 /// always the same; not into a wall.

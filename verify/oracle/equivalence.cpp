@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "kernels/plan/plan.hpp"
+#include "verify/figures/bounce_gauge.hpp"
 #include "verify/oracle/oracle.hpp"
 #include "verify/watch/monitor.hpp"
-#include "verify/watch/observables.hpp"
 
 namespace bounce {
 namespace {
@@ -109,9 +109,10 @@ struct Observables {
   std::array<double, count> values{};
 };
 
-Observables observe(const Sample& sample, const Bounce& bounce) {
+Observables observe(const Sample& sample, const Bounce& bounce, double start_energy) {
   return {{sample.centre.y, sample.kinetic, sample.bond, sample.gravity, sample.total(),
-           bounce.lowest_centre, bounce.rebound_height, bounce.contact_time, bounce.energy_lost}};
+           bounce.lowest_centre->value, bounce.rebound_height->value, bounce.contact_time->value,
+           start_energy - sample.total()}};
 }
 
 // A run beside the oracle's, and how far it has been off.
@@ -132,13 +133,13 @@ class Comparison {
         kernels_(kernels),
         last_equal_(problem_.initial) {
     for (const KernelUnderTest& kernel : kernels) {
-      runners_.push_back({kernel.make(problem_), {}, 0.0, {}});
+      runners_.push_back({kernel.make(problem_), oracle_gauge_, 0.0, {}});
     }
     PlanRequest strict;
     strict.kernel = "strict";
     strict.threads = 1;
     for (std::uint32_t copy = 1; copy <= disturbed_copies; ++copy) {
-      disturbed_.push_back({make_stepper(problem_, strict), {}, 0.0, {}});
+      disturbed_.push_back({make_stepper(problem_, strict), oracle_gauge_, 0.0, {}});
       disturbed_.back().stepper->restore({disturbed(problem_.initial, copy), false, 0});
     }
     first_.resize(kernels.size());
@@ -239,27 +240,26 @@ class Comparison {
   }
 
   void sample() {
-    const double time = static_cast<double>(at_) * problem_.step;
-    const Observables ours = look(time, now_, oracle_gauge_);
+    const Observables ours = look(now_, oracle_gauge_);
     for (std::size_t i = 0; i < Observables::count; ++i) {
       raise_to(largest_[i], std::abs(ours.values[i]));
     }
-    for (Runner& copy : disturbed_) compare_observables(copy, time, ours);
-    for (Runner& runner : runners_) compare_observables(runner, time, ours);
+    for (Runner& copy : disturbed_) compare_observables(copy, ours);
+    for (Runner& runner : runners_) compare_observables(runner, ours);
   }
 
-  Observables look(double time, const State& state, BounceGauge& gauge) const {
-    const Sample sample = measure(problem_, state);
-    gauge.add(time, sample);
-    return observe(sample, gauge.result());
+  // Looks alone: going back would take longer than the run.
+  Observables look(const State& state, BounceGauge& gauge) const {
+    gauge.look(at_, state);
+    return observe(measure(problem_, state), gauge.result(), start_energy_);
   }
 
-  void compare_observables(Runner& runner, double time, const Observables& ours) const {
+  void compare_observables(Runner& runner, const Observables& ours) const {
     if (!is_finite(runner.stepper->state())) {
       runner.observables.fill(infinity);
       return;
     }
-    const Observables theirs = look(time, runner.stepper->state(), runner.gauge);
+    const Observables theirs = look(runner.stepper->state(), runner.gauge);
     for (std::size_t i = 0; i < Observables::count; ++i) {
       raise_to(runner.observables[i], std::abs(theirs.values[i] - ours.values[i]));
     }
@@ -334,11 +334,11 @@ class Comparison {
   }
 
   // Below this an observable says nothing: the last places of its sums, of the total energy for the
-  // energy lost; for the contact time, which counts samples, the time between two.
+  // energy lost; for the contact time, whose ends lie between two samples, twice that.
   [[nodiscard]] double finest_difference(std::size_t i) const {
     constexpr double last_places = 16.0 * std::numeric_limits<double>::epsilon();
     if (i == Observables::contact_time) {
-      return static_cast<double>(sample_every) * problem_.step * (1.0 + last_places);
+      return 2.0 * static_cast<double>(sample_every) * problem_.step * (1.0 + last_places);
     }
     return last_places * largest_[i == Observables::energy_lost ? Observables::total_energy : i];
   }
@@ -351,7 +351,8 @@ class Comparison {
   std::vector<Runner> runners_;
   std::vector<std::optional<Difference>> first_;
   std::vector<Runner> disturbed_;
-  BounceGauge oracle_gauge_;
+  BounceGauge oracle_gauge_{problem_, problem_.step, {}};
+  double start_energy_ = measure(problem_, problem_.initial).total();
   std::array<double, Observables::count> largest_{};
   State now_;
   State last_equal_;

@@ -44,9 +44,9 @@ const CourseRecord& impact_reference() {
     std::vector<double> times;
     for (int i = 0; i <= sampling.samples; ++i) times.push_back(sampling.every * i);
     const ReferencePair pair = solve_both(problem, times, {});
-    CourseGauge gauge(problem, 3);
-    for (std::size_t i = 0; i < times.size(); ++i) gauge.add(times[i], pair.fixed.states[i]);
-    return gauge.result();
+    CourseGauge gauge(problem, pair.last_before_contact() + 1);
+    for (const State& state : pair.fixed.states) gauge.add(state);
+    return gauge.result(pair.fixed.bounce);
   }();
   return record;
 }
@@ -54,42 +54,20 @@ const CourseRecord& impact_reference() {
 std::vector<AccuracyRow> rows_of(const Scene& scene, const std::vector<Setting>& settings,
                                  const CourseRecord& reference, int threads = 2) {
   return measure_accuracy(scene, {}, settings, sampling, reference, threads,
-                          [](std::size_t) { return true; })
+                          [](std::size_t, const AccuracyRow&) { return true; })
       .value();
-}
-
-TEST(CourseGauge, SharesAnIntervalWithTheContact) {
-  const Problem problem = make_problem(impact_scene());
-  CourseGauge gauge(problem, 3);
-  State state = problem.initial;
-  const auto at = [&](double height) {  // of the lowest particle
-    double lowest = infinity;
-    for (const double y : state.y) lowest = std::min(lowest, y);
-    for (double& y : state.y) y += height - lowest;
-    return state;
-  };
-  EXPECT_TRUE(gauge.add(0.0, at(3 * contact_distance)));
-  EXPECT_TRUE(gauge.add(1.0, at(2 * contact_distance)));
-  EXPECT_TRUE(gauge.add(2.0, at(0.0)));  // half of it within
-  EXPECT_TRUE(gauge.add(3.0, at(0.0)));
-  EXPECT_TRUE(gauge.add(5.0, at(5 * contact_distance)));  // a fifth of two seconds
-  const CourseRecord record = gauge.result();
-  EXPECT_NEAR(record.observables.contact, 0.5 + 1.0 + 0.4, 1e-9);
-  EXPECT_EQ(record.free_samples, 2U);
-  EXPECT_NEAR(record.observables.lost, 0.0, 360 * 0.098 * 5 * contact_distance);
-  EXPECT_EQ(record.lowest_time, 2.0);
 }
 
 TEST(CourseGauge, NothingIsKnownOfACourseThatIsNotFinite) {
   const Problem problem = make_problem(impact_scene());
-  CourseGauge good(problem, 3), bad(problem, 3, 1);
+  CourseGauge good(problem), bad(problem, 1);
   State state = problem.initial;
-  good.add(0.0, state);
-  good.add(1.0, state);
-  bad.add(0.0, state);
+  good.add(state);
+  good.add(state);
+  bad.add(state);
   state.vx[7] = nan;
-  EXPECT_FALSE(bad.add(1.0, state));
-  const CourseErrors errors = errors_of(bad.result(), good.result());
+  EXPECT_FALSE(bad.add(state));
+  const CourseErrors errors = errors_of(bad.result({}), good.result({}));
   EXPECT_EQ(errors.position, infinity);
   EXPECT_EQ(errors.energy, infinity);
   for (const ObservableName& each : observable_names) {
@@ -189,7 +167,7 @@ TEST(Accuracy, StopsWhenAsked) {
   const std::vector<Setting> settings{{"listing", Contact::listing, 20},
                                       {"listing", Contact::listing, 30}};
   EXPECT_FALSE(
-      measure_accuracy(scene, {}, settings, sampling, impact_reference(), 1, [](std::size_t) {
+      measure_accuracy(scene, {}, settings, sampling, impact_reference(), 1, [](std::size_t, const AccuracyRow&) {
         return false;
       }).has_value());
 }
@@ -376,7 +354,7 @@ TEST(CourseTiming, ALocatedCourseThatHasBlownUpTellsNothing) {
   const Setting kind{"leapfrog", Contact::located, 1};
   const auto seconds = [&](const std::vector<Setting>& settings) {
     const auto rows = measure_accuracy(impact_scene(), {}, settings, short_course, {}, 1,
-                                       [](std::size_t) { return true; });
+                                       [](std::size_t, const AccuracyRow&) { return true; });
     for (const AccuracyRow& row : *rows) EXPECT_TRUE(row.record.finite);
     return time_courses(impact_scene(), {}, short_course, *rows, false, 1).rows;
   };

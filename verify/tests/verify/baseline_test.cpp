@@ -50,7 +50,7 @@ Solved solve(const Solver& solver, const Problem& problem, double tolerance) {
   Solved solved;
   solved.work = solver(
       problem, tolerance, times,
-      [&](double, const State& state) { solved.states.push_back(state); }, [] {});
+      [&](double, const State& state) { solved.states.push_back(state); }, [] {}, nullptr);
   return solved;
 }
 
