@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "driver/equivalence_table.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
@@ -20,6 +21,7 @@
 #include "kernels/stepping/threads.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle.hpp"
+#include "verify/oracle/wall_scenes.hpp"
 
 namespace bounce {
 namespace {
@@ -30,6 +32,7 @@ constexpr std::int64_t wall_steps = 100000;  // of each scene once more, started
 
 struct Options {
   std::vector<std::string> scenes;
+  bool walls = false;  // the scenes of walls, too
   bool quick = false;
   bool full = false;
   std::string vector = "auto";
@@ -64,6 +67,10 @@ std::vector<Case> make_cases(const Options& options) {
     const std::int64_t steps = options.quick ? quick_steps : wall_steps;
     cases.push_back({options.scenes[i] + " at the wall", at_the_wall(scenes[i]), steps, true, {}});
   }
+  if (!options.walls) return cases;
+  for (const WallScene& each : wall_scenes()) {
+    cases.push_back({each.name, each.scene, wall_scene_steps, false, {}});
+  }
   return cases;
 }
 
@@ -93,16 +100,11 @@ void run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& ker
   });
 }
 
-std::string table_of(const std::vector<Case>& cases) {
-  std::string text = fmt::format("{:<23} {:<7} {:<34} {:<38} {:<22} {}\n", "scene", "kernel",
-                                 "check", "measured", "allowed", "");
-  for (const Case& each : cases) {
-    for (const EquivalenceRow& row : each.rows) {
-      text += fmt::format("{:<23} {:<7} {:<34} {:<38} {:<22} {}\n", row.scene, row.kernel,
-                          row.check, row.measured, row.allowed, row.pass ? "ok" : "FAILED");
-    }
-  }
-  return text;
+// The rows of all cases, in the order of the cases.
+std::vector<EquivalenceRow> rows_of(const std::vector<Case>& cases) {
+  std::vector<EquivalenceRow> rows;
+  for (const Case& each : cases) rows.insert(rows.end(), each.rows.begin(), each.rows.end());
+  return rows;
 }
 
 constexpr const char* explanation =
@@ -119,23 +121,15 @@ int verify(const Options& options) {
   if (!options.out.empty()) check_output_path(options.out, true);
   std::vector<Case> cases = make_cases(options);
   run_cases(cases, kernels_under_test(options.vector));
-  std::size_t rows = 0;
-  std::size_t failed = 0;
-  for (const Case& each : cases) {
-    rows += each.rows.size();
-    failed += static_cast<std::size_t>(std::count_if(
-        each.rows.begin(), each.rows.end(), [](const EquivalenceRow& row) { return !row.pass; }));
-  }
+  const std::vector<EquivalenceRow> rows = rows_of(cases);
   const Origin origin = find_origin();
-  const std::string verdict =
-      fmt::format("{}: {} of {} rows hold",
-                  failed == 0 && rows > 0 ? "equivalent" : "NOT EQUIVALENT", rows - failed, rows);
   const std::string text =
-      fmt::format("{}\n{}\n{}\ncommit {}, {} {}, {}, {}\n", table_of(cases), explanation, verdict,
-                  origin.commit, origin.compiler, origin.flags, origin.cpu, origin.date);
+      fmt::format("{}\n{}\n{}\ncommit {}, {} {}, {}, {}\n", equivalence_table(rows), explanation,
+                  equivalence_verdict(rows), origin.commit, origin.compiler, origin.flags,
+                  origin.cpu, origin.date);
   print_out("{}", text);
   if (!options.out.empty()) write_file_whole(options.out, text);
-  return failed == 0 && rows > 0 ? 0 : 1;
+  return is_equivalent(rows) ? 0 : 1;
 }
 
 }  // namespace
@@ -152,12 +146,15 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
   command->add_option("--out", options->out, "Write the table to this file, too");
   command->footer(
       "Each scene is also run for a short while from just above its wall, at the speed of its\n"
-      "impact, so that short checks reach the contact.\n"
+      "impact, so that short checks reach the contact. Where no scene is named, those of other "
+      "walls\n"
+      "come on top: ceilings, slopes, two walls, starts on a wall and behind it.\n"
       "Examples:\n"
       "  bounce verify --quick\n"
       "  bounce verify example-2 example-5\n"
       "  bounce verify --full --out equivalence.txt    (about an hour on two cores)\n");
   command->callback([options, &context] {
+    options->walls = options->scenes.empty();
     if (options->scenes.empty()) {
       for (int i = 1; i <= 7; ++i) options->scenes.push_back("example-" + std::to_string(i));
     }

@@ -10,6 +10,7 @@
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/cores.hpp"
+#include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/near_miss.hpp"
 #include "driver/world/origin.hpp"
@@ -104,6 +105,7 @@ int parse_and_run(int argc, char** argv) {
   add_list_command(program, context);
   add_show_command(program, context);
   add_run_command(program, context);
+  add_resume_command(program, context);
   add_stability_command(program, context);
   add_reference_command(program, context);
   add_accuracy_command(program, context);
@@ -141,6 +143,8 @@ int main_with_errors(int argc, char** argv) {
   } catch (const PlanError& error) {
     // What may be asked of a plan are options of the same names.
     return report((error.field.empty() ? "" : "--") + std::string(error.what()), 2);
+  } catch (const OutputError& error) {
+    return report(error.what(), 4);
   } catch (const std::bad_alloc&) {
     return report("out of memory: the ball is too large for this machine", 1);
   } catch (const std::exception& error) {

@@ -14,7 +14,7 @@ import sys
 ROOMS = [
     "kernels/model", "kernels/stepping", "kernels/rings", "kernels/csr", "kernels/contact", "kernels/plan",
     "verify/vibrations", "verify/watch", "verify/figures", "verify/oracle", "verify/stability", "verify/accuracy",
-    "driver/world", "driver/scene", "driver/run", "driver/stability", "driver/accuracy", "driver/extremes",
+    "driver/world", "driver/scene", "driver/output", "driver/run", "driver/stability", "driver/accuracy", "driver/extremes",
     "driver", "bench", "verify/tests",
 ]
 NEVER = {

@@ -45,7 +45,9 @@ class Run {
     return one_line(read_text_file((folder_ / (name_ + ".err")).string()));
   }
   [[nodiscard]] Json record() const { return read_json(folder_ / name_ / "run.json"); }
-  [[nodiscard]] State last() const { return read_state((folder_ / name_ / "final.csv").string()); }
+  [[nodiscard]] State last() const {
+    return read_state((folder_ / name_ / "final.csv").string()).state;
+  }
   // Anything but the files above.
   [[nodiscard]] bool left_something() const {
     return std::any_of(fs::directory_iterator(folder_), {}, [this](const fs::directory_entry& at) {
@@ -256,8 +258,8 @@ Vec2 measure_centre(const State& state) {
 // of the place's size. The far ball's forces differ by what that does to bonds, which is no more.
 void compare_with_like(const ExtremeRow& row, const ExtremeRow& like, const fs::path& folder,
                        ExtremeResult& result) {
-  const State far = read_state((folder / row.name / "final.csv").string());
-  const State near = read_state((folder / like.name / "final.csv").string());
+  const State far = read_state((folder / row.name / "final.csv").string()).state;
+  const State near = read_state((folder / like.name / "final.csv").string()).state;
   const Vec2 offset{row.scene.ball.centre.x - like.scene.ball.centre.x,
                     row.scene.ball.centre.y - like.scene.ball.centre.y};
   double difference = 0.0;

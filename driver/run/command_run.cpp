@@ -1,44 +1,28 @@
 // bounce run: from a scene to a directory of results.
-#include <unistd.h>
-
-#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "driver/run/advice_text.hpp"
-#include "driver/run/extended_xyz.hpp"
-#include "driver/run/ledger_csv.hpp"
-#include "driver/run/monitor_csv.hpp"
-#include "driver/run/run_gauges.hpp"
-#include "driver/run/run_loop.hpp"
-#include "driver/run/run_record.hpp"
-#include "driver/run/run_summary.hpp"
-#include "driver/run/trouble_text.hpp"
+#include "driver/run/run_job.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
-#include "driver/scene/state_file.hpp"
 #include "driver/scene/step_check.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
+#include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
-#include "verify/oracle/listing_frame.hpp"
-#include "verify/oracle/oracle_stepper.hpp"
-#include "verify/watch/booking_stepper.hpp"
 
 namespace bounce {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int exit_unstable = 3;
 
 struct Options {
   std::string scene;
@@ -55,6 +39,7 @@ struct Options {
   bool ledger = false;
   bool force = false;
   bool quiet = false;
+  double checkpoint_every = usual_checkpoints;
 
   [[nodiscard]] fs::path directory() const {
     return out.empty() ? fs::path("runs") / fs::path(scene).stem() : fs::path(out);
@@ -99,11 +84,10 @@ SceneFile load_scene(const Options& options) {
 }
 
 // Says before the run how near it is to the edge of stability. Beyond it runs only with --force.
-std::optional<StepCheck> check_before(const SceneFile& file, const Problem& problem,
-                                      const Options& options) {
+void check_before(const SceneFile& file, const Problem& problem, const Options& options) {
   const auto check = check_step(problem);
   if (!options.force) refuse_unstable_step(file, problem, check);
-  if (options.quiet) return check;
+  if (options.quiet) return;
   std::vector<std::string> warnings{warning_of_lost_motion(problem, file.scene())};
   if (check) {
     print_out("{}\n", describe(*check, problem));
@@ -113,111 +97,6 @@ std::optional<StepCheck> check_before(const SceneFile& file, const Problem& prob
   for (const std::string& warning : warnings) {
     if (!warning.empty()) print_err("bounce: warning: {}\n", warning);
   }
-  return check;
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.close();
-}
-
-// BAL4.OUT1 at the first million steps and so on, BAL4.OUT at the end. As in the listing, the end
-// has no numbered file of its own beyond the nineteenth.
-void write_listing_frames(const fs::path& folder, std::int64_t step, bool is_end,
-                          const State& state) {
-  constexpr std::int64_t million = 1'000'000;
-  constexpr std::int64_t numbered_files = 19;
-  const auto write = [&](const std::string& name) {
-    std::ostringstream text;
-    write_listing_frame(text, state);
-    write_text(folder / name, text.str());
-  };
-  if (step % million == 0 && (step / million <= numbered_files || !is_end)) {
-    write(fmt::format("BAL4.OUT{}", step / million));
-  }
-  if (is_end) write("BAL4.OUT");
-}
-
-// Runs and fills the directory with all that is written on the way. `books`: the stepper's, or
-// null.
-RunResult simulate(const Options& options, const Scene& scene, const Problem& problem,
-                   Stepper& stepper, const WallBooks* books, const fs::path& folder,
-                   BounceGauge figures, RunFindings& findings, MarginGauge& margin) {
-  const Schedule schedule(scene, options.listing_frames);
-  const auto time = [&scene](std::int64_t step) {
-    return static_cast<double>(step) * scene.time.step;
-  };
-  MonitorCsv monitor(folder / "monitor.csv");
-  const bool has_rings = scene.ball.kind == BallKind::rings;
-  ExtendedXyz frames(folder / "frames.extxyz", has_rings
-                                                   ? static_cast<std::size_t>(scene.ball.per_ring)
-                                                   : problem.bonds.particles());
-  Progress progress(::isatty(STDERR_FILENO) != 0 && !options.quiet, schedule.end(),
-                    scene.time.step);
-  RunGauges gauges(problem, std::move(figures), scene.time.step, books != nullptr);
-  std::optional<LedgerCsv> ledger;
-  if (books != nullptr) ledger.emplace(folder / "ledger.csv");
-  RunHooks hooks;
-  hooks.sample = [&](std::int64_t step, const Sample& sample, const State& state) {
-    gauges.add(step, sample, state, books);
-    monitor.write(time(step), sample, gauges.last(), margin.add(step, state));
-    if (ledger && step > 0) ledger->write(time(step), gauges.last());
-  };
-  hooks.frame = [&](std::int64_t step, const State& state) {
-    frames.write(step, time(step), state);
-  };
-  hooks.listing_frame = [&](std::int64_t step, const State& state) {
-    write_listing_frames(folder, step, step == schedule.end(), state);
-  };
-  hooks.progress = [&](std::int64_t step) { progress.update(step); };
-  hooks.stop = interrupted;
-  hooks.next_look = [&](std::int64_t step) { return gauges.next_look(step); };
-  hooks.look = [&] { gauges.look(stepper); };
-  RunResult result = run_loop(stepper, problem, schedule, hooks);
-  findings = gauges.findings(stepper, result.status == RunStatus::unstable);
-  monitor.close();
-  if (ledger) ledger->close();
-  frames.close();
-  return result;
-}
-
-void print_summary(const RunRecord& record, const Options& options) {
-  const Plan& plan = record.plan;
-  const RunResult& result = record.result;
-  print_out("{}\n", printable(record.scene.title.empty() ? record.scene_name : record.scene.title));
-  print_out("plan: kernel {}, vector {}, {} lane(s), {} thread(s); law {}; walls {}\n",
-            kernel_name(plan), name_of(plan.vector), plan.lanes, plan.threads, plan.law,
-            plan.walls);
-  if (!plan.left_out.empty()) print_out("left out: {}\n", fmt::join(plan.left_out, ", "));
-  print_out("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
-            record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
-  if (const auto& margin = record.margin) {
-    const double time = static_cast<double>(margin->step) * record.scene.time.step;
-    print_out("greatest part of the stable step used: {}\n", describe(*margin, time));
-  }
-  print_out("speed: {:.4g} steps/s, {:.3f} s\n", steps_per_second(result), result.seconds);
-  print_out("{}", summary_text(record.findings));
-  print_out("state hash: {:016x}\n", state_hash(result.last));
-  print_out("files: {}\n", options.directory().string());
-}
-
-// Says on stderr why a run is not complete; the exit code.
-int report_end(const RunRecord& record, const Options& options) {
-  const fs::path last = options.directory() / "final.csv";
-  switch (record.result.status) {
-    case RunStatus::complete:
-      return 0;
-    case RunStatus::interrupted:
-      print_err("bounce: interrupted at step {}; kept what was written, last state in {}\n",
-                record.result.step, last.string());
-      return interrupt_exit_code();
-    case RunStatus::unstable:
-      print_err("bounce: {}{}", trouble_text(record),
-                how_to_go_on(record, options.directory().string()));
-      return exit_unstable;
-  }
-  return 1;
 }
 
 void check_final_state(const Options& options) {
@@ -229,75 +108,48 @@ void check_final_state(const Options& options) {
   check_output_path(options.final_state, options.force);
 }
 
-// The plan's kernel, with its books (null: none) if the ledger is asked for.
-struct RunStepper {
-  std::unique_ptr<Stepper> stepper;
-  const WallBooks* books = nullptr;
-};
-RunStepper make_run_stepper(const Options& options, const RunRecord& record,
-                            const Problem& problem) {
-  if (!options.ledger) return {record.plan.make_stepper()};
-  if (record.plan.cuts_steps) {
-    throw InputError(
-        "--ledger: allowed is wall.contact listing or resolved; located contact cuts steps, and "
-        "these books are of whole ones (the monitor's ledger is there in any case)");
-  }
-  auto booking = make_booking_stepper(record.scene, problem, record.plan);
-  const WallBooks* books = &booking->books();
-  return {std::move(booking), books};
-}
-
 int run(const Options& options, const std::string& command_line) {
   SceneFile file = load_scene(options);
   check_final_state(options);
+  if (!(options.checkpoint_every >= 0.0)) {
+    throw InputError(fmt::format("--checkpoint-every {}: allowed is 0 (never) or more, in seconds",
+                                 options.checkpoint_every));
+  }
   check_memory(file, options.request.kernel, available_memory());
   catch_interrupts();
   RunDirectory directory(options.directory(), options.force);
-  std::optional<State> start = load_start(options.initial);
-  RunRecord record;
+  FiledState start;
+  std::optional<State> initial;
+  if (!options.initial.empty()) {
+    start = read_state(options.initial);
+    initial = std::move(start.state);
+  }
+  RunJob job;
   if (options.error) {
-    const auto advice = take_advice(options, start, file);
+    const auto advice = take_advice(options, initial, file);
     if (!advice) {
       print_err("bounce: interrupted; nothing was written\n");
       return interrupt_exit_code();
     }
-    record.advice = *advice;
-    if (!options.quiet) print_out("{}\n", record.advice);
+    job.settings.advice = *advice;
+    if (!options.quiet) print_out("{}\n", *advice);
   }
-  record.command = command_line;
-  record.scene_name = options.scene;
-  record.initial = options.initial;
-  record.scene = file.scene();
-  record.steps_asked = record.scene.steps_until(record.scene.time.end);
   check_memory(file, options.request.kernel, available_memory());
-  Problem problem = load_problem(file, start);
-  start.reset();
-  record.step_check = check_before(file, problem, options);
-  record.particles = problem.initial.size();
-  record.bonds = problem.bonds.bonds();
-  const std::vector<KernelEntry> entries = kernels_with_oracle(record.scene);
-  record.plan = make_plan(problem, options.request, entries);
-  auto [stepper, books] = make_run_stepper(options, record, problem);
-  BounceGauge figures(problem, record.scene.time.step, remake(record.plan));
-  problem.initial = State();  // the stepper holds the particles now
-
-  write_text(directory.path() / "scene.toml", to_toml(record.scene));
-  MarginGauge margin(problem);
-  record.result = simulate(options, record.scene, problem, *stepper, books, directory.path(),
-                           std::move(figures), record.findings, margin);
-  record.margin = margin.result();
-  if (const RunResult& result = record.result; result.trouble) {
-    record.trouble_report =
-        report_trouble(problem, *result.trouble, result.start_refused ? nullptr : &result.last,
-                       result.refused, record.margin);
-  }
-  const auto write_last = [&record](OutputFile& out) { write_state_csv(out, record.result.last); };
-  write_file_whole(directory.path() / "final.csv", write_last);
-  write_text(directory.path() / "run.json", run_json(record));
-  directory.publish();
-  if (!options.final_state.empty()) write_file_whole(options.final_state, write_last);
-  if (!options.quiet) print_summary(record, options);
-  return report_end(record, options);
+  job.settings.command = command_line;
+  job.settings.scene_name = options.scene;
+  job.settings.initial = options.initial;
+  job.settings.request = options.request;
+  if (!options.final_state.empty()) job.settings.final_state = fs::absolute(options.final_state);
+  job.settings.listing_frames = options.listing_frames;
+  job.settings.ledger = options.ledger;
+  job.settings.quiet = options.quiet;
+  job.scene = file.scene();
+  job.problem = load_problem(file, initial);
+  initial.reset();
+  job.held = std::move(start.held);
+  job.checkpoint_every = options.checkpoint_every;
+  check_before(file, job.problem, options);
+  return carry_out(job, directory);
 }
 
 void add_options(CLI::App& command, Options& options) {
@@ -327,6 +179,8 @@ void add_options(CLI::App& command, Options& options) {
                    "Write BAL4.OUT1, ... and BAL4.OUT as the listing does");
   command.add_flag("--ledger", options.ledger,
                    "Book every reflection at a wall: the same bits, several times slower");
+  command.add_option("--checkpoint-every", options.checkpoint_every,
+                     "Write the run down every N seconds, for bounce resume; 0: never [60]");
   command.add_flag("--force", options.force,
                    "Replace results that exist, and run a time step beyond the stable one");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");

@@ -24,9 +24,11 @@ class RunLoop {
         good_(stepper.save()),
         watch_(problem, stepper.state()) {}
 
+  void go_on(WordReader& words);
   RunResult run();
 
  private:
+  void write_down();
   bool advance_to(std::int64_t target);
   bool look(RunStatus status);
   void find_trouble();
@@ -39,21 +41,43 @@ class RunLoop {
   Snapshot good_;
   Watch watch_;
   RunResult result_;
+  bool looked_ = false;          // at the start
+  double seconds_before_ = 0.0;  // of the run before it was gone on with
+  Clock::time_point began_ = Clock::now();
   std::int64_t chunk_ = 1;  // steps between two looks at the stop flag
 };
+
+// Everything that the course to come depends on, and the files.
+void RunLoop::write_down() {
+  if (!hooks_.checkpoint) return;
+  hooks_.checkpoint([this](WordWriter& words) {
+    words(stepper_.save(), good_, watch_, result_.start, seconds_before_ + seconds_since(began_));
+  });
+}
+
+void RunLoop::go_on(WordReader& words) {
+  Snapshot now;
+  words(now, good_, watch_, result_.start, seconds_before_);
+  stepper_.restore(now);
+  looked_ = true;
+}
 
 // Advances in chunks of about 50 ms, so that Ctrl-C is answered at once. False if asked to stop.
 bool RunLoop::advance_to(std::int64_t target) {
   constexpr double chunk_seconds = 0.05;
   while (stepper_.step() < target) {
     if (hooks_.stop()) return false;
-    const std::int64_t steps = std::min(chunk_, target - stepper_.step());
+    const std::int64_t now = stepper_.step(),
+                       look = hooks_.next_look ? hooks_.next_look(now) : target;
+    const std::int64_t steps = std::min({chunk_, target - now, look - now});
     const auto start = Clock::now();
     stepper_.advance(steps);
     const double seconds = seconds_since(start);
     if (steps == chunk_ && seconds < 0.5 * chunk_seconds) chunk_ *= 2;
     if (seconds > chunk_seconds) chunk_ = std::max<std::int64_t>(1, steps / 2);
+    if (hooks_.look && stepper_.step() == look) hooks_.look();
     hooks_.progress(stepper_.step());
+    if (hooks_.checkpoint_due && hooks_.checkpoint_due()) write_down();
   }
   return true;
 }
@@ -109,23 +133,26 @@ void RunLoop::find_trouble() {
 }
 
 RunResult RunLoop::run() {
-  const auto start = Clock::now();
-  if (hooks_.look) hooks_.look();
-  bool good = look(RunStatus::complete);
-  while (good && result_.status == RunStatus::complete && stepper_.step() < schedule_.end()) {
-    const std::int64_t before = stepper_.step(), event = schedule_.next(before);
-    const std::int64_t next_look = hooks_.next_look ? hooks_.next_look(before) : event;
-    if (!advance_to(std::min(event, next_look))) result_.status = RunStatus::interrupted;
-    const std::int64_t now = stepper_.step();
-    if (now == next_look && hooks_.look) hooks_.look();
-    const bool interrupted = result_.status == RunStatus::interrupted;
-    if (now == event || (interrupted && now > before)) good = look(result_.status);
+  bool good = looked_;
+  if (!looked_) {
+    if (hooks_.look) hooks_.look();
+    good = look(RunStatus::complete);
+    if (good) write_down();
   }
-  result_.seconds = seconds_since(start);
+  while (good && result_.status == RunStatus::complete && good_.step < schedule_.end()) {
+    const std::int64_t target = schedule_.next(good_.step);
+    if (!advance_to(target)) result_.status = RunStatus::interrupted;
+    const bool ends = result_.status == RunStatus::interrupted || target == schedule_.end();
+    if (ends) write_down();
+    if (stepper_.step() > good_.step) good = look(result_.status);
+  }
+  result_.seconds = seconds_before_ + seconds_since(began_);
   result_.steps_timed = stepper_.step();
   if (!good) find_trouble();
   result_.step = stepper_.step();
+  const Snapshot last = stepper_.save();
   result_.last = stepper_.state();
+  if (last.stage_held) result_.held = last.state;
   return std::move(result_);
 }
 
@@ -139,8 +166,10 @@ std::int64_t steps_to_look_at(std::size_t particles) {
 }
 
 RunResult run_loop(Stepper& stepper, const Problem& problem, const Schedule& schedule,
-                   const RunHooks& hooks) {
-  return RunLoop(stepper, problem, schedule, hooks).run();
+                   const RunHooks& hooks, WordReader* from) {
+  RunLoop loop(stepper, problem, schedule, hooks);
+  if (from != nullptr) loop.go_on(*from);
+  return loop.run();
 }
 
 }  // namespace bounce

@@ -92,6 +92,7 @@ std::string run_json(const RunRecord& record) {
             {"command", record.command},
             {"status", name_of(result.status)}};
   if (!record.advice.empty()) json["advice"] = record.advice;
+  if (!record.resumed.empty()) json["resumed_at_steps"] = record.resumed;
   if (record.trouble_report) json["trouble"] = trouble_json(record);
   json["steps"] = result.step;
   json["steps_asked"] = record.steps_asked;

@@ -1,7 +1,10 @@
 // run.json: what ran, where, how fast, and to which end.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "driver/run/run_gauges.hpp"
 #include "driver/run/run_loop.hpp"
@@ -14,10 +17,11 @@ namespace bounce {
 
 /// All that run.json tells.
 struct RunRecord {
-  std::string command;     ///< the command line
-  std::string scene_name;  ///< built-in name or file
-  std::string initial;     ///< file of the initial state, or "" for the scene's ball
-  std::string advice;      ///< what --error was answered with, or ""
+  std::string command;                ///< the command line
+  std::string scene_name;             ///< built-in name or file
+  std::string initial;                ///< file of the initial state, or "" for the scene's ball
+  std::string advice;                 ///< what --error was answered with, or ""
+  std::vector<std::int64_t> resumed;  ///< steps from which it was gone on with
   Scene scene;
   Plan plan;
   std::size_t particles = 0, bonds = 0;

@@ -38,7 +38,7 @@ std::string headline(const RunRecord& record) {
   return plain_nan(std::move(text));
 }
 
-std::string part_text(const std::optional<Edge>& edge) {
+std::string part_text(const std::optional<EdgeDistance>& edge) {
   return edge ? fmt::format("{:.4g}", edge->part) : "unknown (a stiffness is not finite)";
 }
 

@@ -27,7 +27,7 @@ void check_rounding(const Scene& scene, const Problem& problem) {
 
 std::optional<State> load_start(const std::string& initial) {
   if (initial.empty()) return std::nullopt;
-  return read_state(initial);
+  return read_state(initial).state;
 }
 
 Problem load_problem(const SceneFile& file, const std::optional<State>& start) {

@@ -19,7 +19,9 @@ namespace bounce {
 namespace {
 
 constexpr std::string_view csv_header = "i,x,y,vx,vy";
-constexpr std::array<const char*, 4> column_names{"x", "y", "vx", "vy"};
+constexpr std::string_view held_header = "i,x,y,vx,vy,held_x,held_y,held_vx,held_vy";
+constexpr std::array<const char*, 8> column_names{"x",      "y",      "vx",      "vy",
+                                                  "held_x", "held_y", "held_vx", "held_vy"};
 
 struct Line {
   const std::string& path;
@@ -47,14 +49,14 @@ bool parse(std::string_view text, Number& out) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-void append(State& state, const std::array<double, 4>& values) {
+void append(State& state, const double* values) {
   state.x.push_back(values[0]);
   state.y.push_back(values[1]);
   state.vx.push_back(values[2]);
   state.vy.push_back(values[3]);
 }
 
-void read_csv_line(const Line& line, State& state) {
+void read_csv_line(const Line& line, FiledState& filed) {
   std::vector<std::string_view> cells;
   for (std::string_view rest = line.text;;) {
     const auto comma = rest.find(',');
@@ -62,21 +64,29 @@ void read_csv_line(const Line& line, State& state) {
     if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
-  if (cells.size() != 5) throw line.refuse("line", line.text, "five values, i,x,y,vx,vy");
+  const std::size_t columns = filed.held ? 9 : 5;
+  if (cells.size() != columns) {
+    throw line.refuse("line", line.text,
+                      fmt::format("{} values, {}", columns, filed.held ? held_header : csv_header));
+  }
   std::size_t number = 0;
-  if (!parse(cells[0], number) || number != state.size() + 1) {
-    throw line.refuse("i", cells[0], fmt::format("{}, the particle's number", state.size() + 1));
+  if (!parse(cells[0], number) || number != filed.state.size() + 1) {
+    throw line.refuse("i", cells[0],
+                      fmt::format("{}, the particle's number", filed.state.size() + 1));
   }
-  std::array<double, 4> values{};
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (!parse(cells[c + 1], values[c]))
+  std::array<double, 8> values{};
+  for (std::size_t c = 0; c + 1 < columns; ++c) {
+    if (!parse(cells[c + 1], values[c])) {
       throw line.refuse(column_names[c], cells[c + 1], "a number");
+    }
   }
-  append(state, values);
+  append(filed.state, values.data());
+  if (filed.held) append(*filed.held, values.data() + 4);
 }
 
-State read_csv(const std::string& path, std::string_view rest) {
-  State state;
+FiledState read_csv(const std::string& path, std::string_view rest, bool with_held) {
+  FiledState filed;
+  if (with_held) filed.held.emplace();
   while (rest.ends_with("\n\n") || rest.ends_with("\n\r\n")) {
     rest.remove_suffix(rest.ends_with("\n\n") ? 1 : 2);
   }
@@ -84,10 +94,10 @@ State read_csv(const std::string& path, std::string_view rest) {
     const auto end = rest.find('\n');
     const Line line{path, number, rest.substr(0, end)};
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (number > 1) read_csv_line(line, state);
+    if (number > 1) read_csv_line(line, filed);
   }
-  if (state.size() == 0) throw InputError(path + ": holds no particles");
-  return state;
+  if (filed.state.size() == 0) throw InputError(path + ": holds no particles");
+  return filed;
 }
 
 // A number that is cut off in its middle is a number, too: only the line's end tells.
@@ -103,26 +113,33 @@ void check_end(const std::string& path, std::string_view text) {
 
 }  // namespace
 
-void write_state_csv(OutputFile& file, const State& state) {
+void write_state_csv(OutputFile& file, const State& state, const std::optional<State>& held) {
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "{}\n", csv_header);
+  const auto end = std::back_inserter(out);
+  const auto put = [&end](const State& s, std::size_t i) {
+    fmt::format_to(end, ",{:.17g},{:.17g},{:.17g},{:.17g}", s.x[i], s.y[i], s.vx[i], s.vy[i]);
+  };
+  fmt::format_to(end, "{}\n", held ? held_header : csv_header);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), "{},{:.17g},{:.17g},{:.17g},{:.17g}\n", i + 1,
-                   state.x[i], state.y[i], state.vx[i], state.vy[i]);
+    fmt::format_to(end, "{}", i + 1);
+    put(state, i);
+    if (held) put(*held, i);
+    out.push_back('\n');
     file.write_large(out);
   }
   file.write({out.data(), out.size()});
 }
 
-State read_state(const std::string& path) {
+FiledState read_state(const std::string& path) {
   const std::string text = read_text_file(path);
   check_end(path, text);
-  if (trimmed(std::string_view(text).substr(0, text.find('\n'))) == csv_header) {
-    return read_csv(path, text);
+  const std::string_view first = trimmed(std::string_view(text).substr(0, text.find('\n')));
+  if (first == csv_header || first == held_header) {
+    return read_csv(path, text, first == held_header);
   }
   try {
     std::istringstream in(text);
-    return read_listing_frame(in);
+    return {read_listing_frame(in), std::nullopt};
   } catch (const std::runtime_error& error) {
     throw InputError(
         fmt::format("{}: {} (allowed is the listing's format, 4F12.4, or a file that "

@@ -19,6 +19,7 @@ struct CommandContext {
 void add_list_command(CLI::App& program, CommandContext& context);
 void add_show_command(CLI::App& program, CommandContext& context);
 void add_run_command(CLI::App& program, CommandContext& context);
+void add_resume_command(CLI::App& program, CommandContext& context);
 void add_stability_command(CLI::App& program, CommandContext& context);
 void add_reference_command(CLI::App& program, CommandContext& context);
 void add_accuracy_command(CLI::App& program, CommandContext& context);

@@ -36,6 +36,7 @@ void guard_streams() {
   keep_open(STDOUT_FILENO, O_RDONLY);
   keep_open(STDERR_FILENO, O_WRONLY);
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails as a full disk does
 }
 
 void write_out(std::string_view text) {

@@ -20,8 +20,8 @@ namespace bounce {
 namespace fs = std::filesystem;
 namespace {
 
-std::system_error write_error(const fs::path& path) {
-  return {errno, std::generic_category(), path.string() + ": cannot be written"};
+OutputError write_error(const fs::path& path) {
+  return OutputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
 }
 
 // What is to be done at a path.
@@ -157,6 +157,22 @@ OutputFile::OutputFile(fs::path path)
   if (!file_) throw write_error(path_);
 }
 
+OutputFile::OutputFile(fs::path path, std::uint64_t size)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "r+be")) {
+  if (!file_) throw write_error(path_);
+  struct stat there {};
+  if (::fstat(::fileno(file_.get()), &there) != 0) throw write_error(path_);
+  if (static_cast<std::uint64_t>(there.st_size) < size) {
+    throw OutputError(fmt::format("{}: holds {} bytes, and held {} when the checkpoint was written",
+                                  path_.string(), there.st_size, size));
+  }
+  const auto length = static_cast<off_t>(size);
+  if (::ftruncate(::fileno(file_.get()), length) != 0 ||
+      ::fseeko(file_.get(), length, SEEK_SET) != 0) {
+    throw write_error(path_);
+  }
+}
+
 OutputFile::OutputFile(int descriptor, fs::path path)
     : path_(std::move(path)), file_(::fdopen(descriptor, "wb")) {
   if (!file_) throw write_error(path_);
@@ -177,6 +193,18 @@ void OutputFile::write_large(fmt::memory_buffer& text) {
 
 void OutputFile::flush() {
   if (std::fflush(file_.get()) != 0) throw write_error(path_);
+}
+
+void OutputFile::sync() {
+  flush();
+  if (::fdatasync(::fileno(file_.get())) != 0) throw write_error(path_);
+}
+
+std::uint64_t OutputFile::size() {
+  flush();
+  const off_t at = ::ftello(file_.get());
+  if (at < 0) throw write_error(path_);
+  return static_cast<std::uint64_t>(at);
 }
 
 void OutputFile::close() {
@@ -210,12 +238,19 @@ void write_file_whole(const fs::path& path, std::string_view text) {
 void write_file_whole(const fs::path& path, const std::function<void(OutputFile&)>& fill) {
   const Place place = place_of(path);
   if (!place.refusal.empty()) {
-    throw std::runtime_error(fmt::format("{}: {}", path.string(), place.refusal));
+    throw OutputError(fmt::format("{}: {}", path.string(), place.refusal));
   }
   if (place.kind == Place::Kind::file) return replace_file(place, fill);
   OutputFile file = open_stream(place);
   fill(file);
   file.close();
+}
+
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) throw write_error(folder);
+  static_cast<void>(::fsync(descriptor));  // EINVAL where it cannot
+  ::close(descriptor);
 }
 
 fs::path make_beside(const fs::path& path, std::string_view word,

@@ -9,10 +9,12 @@
 //   a directory, a disk, a socket: refused
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -28,12 +30,20 @@ std::string read_bytes(const std::string& path);
 /// end with a carriage return alone.
 std::string read_text_file(const std::string& path);
 
-/// A text file being written. Throws std::runtime_error naming file and reason when a write fails,
-/// so that a full disk is noticed.
+/// What was asked for cannot be written; the message names file and reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file being written. Throws OutputError when a write fails, so that a full disk is noticed.
 class OutputFile {
  public:
   /// A new file: one that exists is an error.
   explicit OutputFile(std::filesystem::path path);
+  /// A file that exists, from its byte `size` on; what it has beyond is cut off. Throws OutputError
+  /// if it is shorter.
+  OutputFile(std::filesystem::path path, std::uint64_t size);
   /// Takes over an open file.
   OutputFile(int descriptor, std::filesystem::path path);
   void write(std::string_view text);
@@ -41,6 +51,10 @@ class OutputFile {
   void write_large(fmt::memory_buffer& text);
   /// Hands what was written to the operating system.
   void flush();
+  /// Flushes, and returns once it is on the disk.
+  void sync();
+  /// Bytes so far. Flushes.
+  [[nodiscard]] std::uint64_t size();
   /// Flushes and closes; the destructor closes, too, but cannot report an error.
   void close();
 
@@ -63,8 +77,11 @@ void write_file_whole(const std::filesystem::path& path, std::string_view text);
 void write_file_whole(const std::filesystem::path& path,
                       const std::function<void(OutputFile&)>& fill);
 
+/// Returns once the folder's names are on the disk, where the file system can do that.
+void sync_folder(const std::filesystem::path& folder);
+
 /// Calls `make` with names beside `path`, PATH.WORD-XXXXXX, until it makes one that is new; it
-/// returns false and sets errno otherwise. Throws std::runtime_error if nothing can be made there.
+/// returns false and sets errno otherwise. Throws OutputError if nothing can be made there.
 std::filesystem::path make_beside(const std::filesystem::path& path, std::string_view word,
                                   const std::function<bool(const std::filesystem::path&)>& make);
 

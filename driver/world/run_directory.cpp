@@ -45,6 +45,45 @@ std::string refusal_of(const fs::path& path, const std::string& marker) {
   return fmt::format("is not the directory of a run (no {} there)", marker);
 }
 
+constexpr const char* part_suffix = ".part";
+
+fs::path part_of(fs::path target) { return target += part_suffix; }
+
+bool has_checkpoint(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / checkpoint_name, ignored);
+}
+
+// As it was asked for, without a slash at its end.
+std::string name_of(const fs::path& target) {
+  return (target.has_filename() ? target : target.parent_path()).string();
+}
+
+// What a run that was killed may leave: the directory has a scene, or nothing yet but that in the
+// making.
+bool is_left_over(const fs::path& part) {
+  if (!fs::is_directory(fs::symlink_status(part))) return false;
+  constexpr std::string_view scene = "scene.toml";
+  if (fs::exists(part / scene)) return true;
+  for (const auto& entry : fs::directory_iterator(part)) {
+    if (!entry.path().filename().string().starts_with(scene)) return false;
+  }
+  return true;
+}
+
+// Files that were being written when the run was killed (make_beside() in files.hpp).
+void remove_temporaries(const fs::path& folder) {
+  constexpr std::string_view word = ".partial-";
+  constexpr std::size_t letters = 6;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (name.size() < word.size() + letters) continue;
+    if (name.substr(name.size() - word.size() - letters).starts_with(word)) found.push_back(entry);
+  }
+  for (const fs::path& file : found) fs::remove(file);
+}
+
 }  // namespace
 
 fs::path plain_path(const fs::path& path) {
@@ -107,33 +146,79 @@ void check_run_directory(const fs::path& target, bool replace, const std::string
 }
 
 RunDirectory::RunDirectory(const fs::path& target, bool replace, std::string marker)
-    : target_(plain_path(target)), replace_(replace), marker_(std::move(marker)) {
+    : name_(name_of(target)),
+      target_(plain_path(target)),
+      part_(part_of(target_)),
+      replace_(replace),
+      marker_(std::move(marker)) {
   check_run_directory(target, replace, marker_);
   try {
     parents_.make(target_.parent_path());
     lock_ = std::make_unique<OutputLock>(target_, target.string());
     check_run_directory(target, replace, marker_);  // one may just have been published there
-    partial_ = make_directory_beside(target_, "partial");
+    take_part();
   } catch (const std::system_error& error) {
     throw InputError(fmt::format("--out {}: a directory cannot be made there: {}", target.string(),
                                  error.code().message()));
   }
 }
 
+RunDirectory::RunDirectory(Reopened, const fs::path& target)
+    : name_(name_of(target)),
+      target_(plain_path(target)),
+      part_(part_of(target_)),
+      replace_(true),
+      marker_("run.json") {
+  lock_ = std::make_unique<OutputLock>(target_, name_);
+  if (!has_checkpoint(part_)) part_ = target_;
+  if (!has_checkpoint(part_)) {
+    throw InputError(fmt::format(
+        "{}: there is no run to go on with; allowed is what bounce run was given as --out, where "
+        "it left a checkpoint",
+        name_));
+  }
+  keep_ = true;
+  remove_temporaries(part_);
+}
+
+RunDirectory RunDirectory::reopen(const fs::path& target) {
+  const fs::path name = name_of(target);
+  return {Reopened{}, name.extension() == part_suffix ? fs::path(name).replace_extension() : name};
+}
+
+// Makes NAME.part, or what is left there of a run that cannot be gone on with an empty one.
+void RunDirectory::take_part() {
+  if (::mkdir(part_.c_str(), 0777) == 0) return;
+  if (errno != EEXIST) throw std::system_error(errno, std::generic_category(), part_.string());
+  if (!is_left_over(part_)) {
+    throw InputError(
+        fmt::format("--out {}: {}{} is there, and is no stopped run", name_, name_, part_suffix));
+  }
+  if (has_checkpoint(part_) && !replace_) {
+    throw InputError(fmt::format(
+        "--out {0}: a run for it was stopped ({0}{1}); \"bounce resume {0}\" goes on with it, "
+        "--force drops it",
+        name_, part_suffix));
+  }
+  for (const auto& entry : fs::directory_iterator(part_)) fs::remove_all(entry.path());
+}
+
 RunDirectory::~RunDirectory() {
-  if (keep_) return;
+  if (keep_ || !lock_) return;
   std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  fs::remove_all(part_, ignored);
 }
 
 void RunDirectory::publish() {
   keep_ = true;  // from here on the run is worth more than a tidy disk
+  if (part_ == target_) return;
   try {
     check_run_directory(target_, replace_, marker_);  // it may have appeared meanwhile
-    put_in_place(partial_, target_);
+    // What is replaced is no run to go on with, should this be its end.
+    fs::remove(target_ / checkpoint_name);
+    put_in_place(part_, target_);
   } catch (const std::exception& error) {
-    throw std::runtime_error(
-        fmt::format("{}\nthe run's files are in {}", error.what(), partial_.string()));
+    throw OutputError(fmt::format("{}\nthe run's files are in {}", error.what(), part_.string()));
   }
 }
 

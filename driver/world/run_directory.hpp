@@ -1,4 +1,5 @@
-// A run's directory: filled under a temporary name beside its place, and renamed when it is whole.
+// A run's directory: filled under the name NAME.part beside its place, and renamed when it is
+// whole. What a stopped run has left there can be gone on with if it holds a checkpoint.
 #pragma once
 
 #include <filesystem>
@@ -39,25 +40,41 @@ class OutputLock {
   int descriptor_ = -1;
 };
 
-/// The directory of one run. Removed again if it is not published, so that an error leaves nothing.
+/// The directory of one run. While it is filled its name is NAME.part. Removed again if it is
+/// neither published nor to be kept, so that an error leaves nothing.
 class RunDirectory {
  public:
   /// To be made before the work begins. Throws InputError if `target` exists and may not be
-  /// replaced, or holds no run and would be lost, if another process is at work for it, or if a
-  /// directory cannot be made beside it.
+  /// replaced, or holds no run and would be lost, if another process is at work for it, if NAME.part
+  /// is a stopped run that can be gone on with (`replace` drops it) or is no run, or if a directory
+  /// cannot be made there.
   /// `marker`: the file by which a directory that may be replaced is known.
   RunDirectory(const std::filesystem::path& target, bool replace, std::string marker = "run.json");
+  /// Goes on in the directory of a stopped run: NAME.part if there is one that can be gone on with,
+  /// else NAME itself. `target` may be either name. Throws InputError if there is nothing to go on
+  /// with, or another process does.
+  static RunDirectory reopen(const std::filesystem::path& target);
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  /// Where to write for now: a directory that is new.
-  [[nodiscard]] const std::filesystem::path& path() const { return partial_; }
-  /// Renames it into its place. Throws std::runtime_error naming where the files are if that fails.
+  /// Where to write for now.
+  [[nodiscard]] const std::filesystem::path& path() const { return part_; }
+  /// Its name in the end, as it was asked for.
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// From now on what is there stays, whatever happens.
+  void keep() { keep_ = true; }
+  [[nodiscard]] bool is_kept() const { return keep_; }
+  /// Renames it into its place. Throws OutputError naming where the files are if that fails.
   void publish();
 
  private:
-  std::filesystem::path target_, partial_;
+  struct Reopened {};
+  RunDirectory(Reopened, const std::filesystem::path& target);
+  void take_part();
+
+  std::string name_;
+  std::filesystem::path target_, part_;
   bool replace_;
   std::string marker_;
   bool keep_ = false;
@@ -69,6 +86,9 @@ class RunDirectory {
 /// it all but empty directories and those that hold the file `marker`. A link is not followed.
 void check_run_directory(const std::filesystem::path& target, bool replace,
                          const std::string& marker = "run.json");
+
+/// The file by which a run can be gone on with, in its directory (driver/run/checkpoint.hpp).
+inline constexpr const char* checkpoint_name = "checkpoint";
 
 /// Gives the directory `from` the name `to`; what stood there, which must be a directory, is
 /// removed once the new one has its place.

@@ -138,10 +138,10 @@ class ContactSolver {
   using Parts = StateParts<const Real>;
 
   // Of a distance: of two products and two sums.
-  [[nodiscard]] Real roundings() const {
+  [[nodiscard]] Real roundings(Real epsilon = std::numeric_limits<Real>::epsilon()) const {
     Real largest = 0;
     for (std::size_t k = 0; k < 2 * n_; ++k) largest = std::max(largest, std::abs(state_[k]));
-    return 4 * std::numeric_limits<Real>::epsilon() * largest;
+    return 4 * epsilon * largest;
   }
 
   [[nodiscard]] Parts start() const { return {flow_.start().data(), n_}; }
@@ -373,18 +373,20 @@ class ContactSolver {
 
   // Starts at a wall or behind it.
   void begin_at_walls() {
+    // Where a start stands is known to the roundings of a double.
+    const Real known = std::max(floor_, roundings(std::numeric_limits<double>::epsilon()));
     for (std::size_t w = 0; w < problem_.walls.size(); ++w) {
       for (std::size_t i = 0; i < n_; ++i) {
-        if (may_act(i, w)) begin_at_wall(i, w, distance(i, problem_.walls[w], now()));
+        if (may_act(i, w)) begin_at_wall(i, w, distance(i, problem_.walls[w], now()), known);
       }
     }
   }
 
-  void begin_at_wall(std::size_t i, std::size_t w, const Gauge& at) {
+  void begin_at_wall(std::size_t i, std::size_t w, const Gauge& at, Real known) {
     const Wall& wall = problem_.walls[w];
     const auto nx = static_cast<Real>(wall.normal.x), ny = static_cast<Real>(wall.normal.y);
     const StateParts<Real> s(state_.data(), n_);
-    const bool behind = at.value < -floor_;
+    const bool behind = at.value < -known;
     if (behind && wall.beta == -1.0) {
       const Real along = static_cast<Real>(wall.alpha) * (ny * s.vx[i] - nx * s.vy[i]);
       s.x[i] -= 2 * at.value * nx;
@@ -400,7 +402,7 @@ class ContactSolver {
     } else if (behind && at.slope > 0) {  // on its way out
       s.x[i] -= at.value * nx;
       s.y[i] -= at.value * ny;
-    } else if (at.value <= floor_ && at.slope <= 0) {
+    } else if (at.value <= known && at.slope <= 0) {
       meet(i, w);
     }
   }

@@ -20,9 +20,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "kernels/stepping/stepper.hpp"
+#include "verify/watch/words.hpp"
 
 namespace bounce {
 
@@ -40,7 +43,9 @@ class KeptState {
     std::optional<Snapshot> copy;
     if (snapshot_) copy = *snapshot_;
     words(copy);
-    snapshot_ = copy ? std::make_shared<const Snapshot>(std::move(*copy)) : nullptr;
+    if constexpr (std::is_same_v<Words, WordReader>) {
+      snapshot_ = copy ? std::make_shared<const Snapshot>(std::move(*copy)) : nullptr;
+    }
   }
 
  private:

@@ -45,8 +45,8 @@ TroubledState look_at(const Problem& problem, const Trouble& trouble,
                  problem.classes[*bond_class].rest;
   }
   if (const auto fastest = fastest_vibration(problem, state)) {
-    seen.edge = Edge{part_of_stable_step(problem, fastest->omega),
-                     stable_step(*problem.method, fastest->omega)};
+    seen.edge = EdgeDistance{part_of_stable_step(problem, fastest->omega),
+                             stable_step(*problem.method, fastest->omega)};
   }
   return seen;
 }

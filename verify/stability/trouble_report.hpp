@@ -13,16 +13,16 @@
 namespace bounce {
 
 /// How far a state is from the edge of stability.
-struct Edge {
+struct EdgeDistance {
   double part = 0.0;         ///< time step / stable step
   double stable_step = 0.0;  ///< s; infinity if nothing vibrates
 };
 
 /// One state, as the report looks at it. NaN and infinity are reported as they are.
 struct TroubledState {
-  double energy = 0.0;       ///< kinetic, bond and gravity, erg
-  double ratio = 0.0;        ///< R/R0 of the trouble's bond
-  std::optional<Edge> edge;  ///< nothing: a stiffness there is not finite
+  double energy = 0.0;               ///< kinetic, bond and gravity, erg
+  double ratio = 0.0;                ///< R/R0 of the trouble's bond
+  std::optional<EdgeDistance> edge;  ///< nothing: a stiffness there is not finite
 };
 
 struct TroubleReport {

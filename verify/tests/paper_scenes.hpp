@@ -1,11 +1,8 @@
 // The paper's examples as plain data, so that these tests need no scene files.
 #pragma once
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "kernels/model/scene.hpp"
 
@@ -31,19 +28,6 @@ inline Scene paper_scene(int example) {
   }
   scene.walls.push_back(floor);
   return scene;
-}
-
-inline bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-/// Index of the first number whose bits differ, or -1; -2 if the lengths differ.
-inline std::int64_t first_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size()) return -2;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!same_bits(a[i], b[i])) return static_cast<std::int64_t>(i);
-  }
-  return -1;
 }
 
 }  // namespace bounce

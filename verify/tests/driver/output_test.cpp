@@ -34,7 +34,7 @@ class DriverOutputTest : public ProgramTest {
   // A run that ends when it is told to.
   pid_t start_endless(const std::string& out) {
     const pid_t child = start({"run", "ball.toml", "--t-end", "300000", "-q", "--out", out});
-    wait_for(out + ".partial-");
+    wait_for(out + ".part/checkpoint");
     return child;
   }
   static bool runs(pid_t child) { return waitpid(child, nullptr, WNOHANG) == 0; }
@@ -128,14 +128,13 @@ TEST_F(DriverOutputTest, AllPathsAreCheckedBeforeTheWork) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
 }
 
-// The names that a program with this process number made until now are another's.
 TEST_F(DriverOutputTest, TemporaryNamesAreNew) {
-  EXPECT_EQ(shell("mkdir o.partial-$$; echo alien > o.partial-$$/ledger.csv\n"
-                  "exec \"$BOUNCE\" run ball.toml --out o -q"),
-            0)
-      << err();
-  EXPECT_FALSE(fs::exists(folder_ / "o/ledger.csv"));
-  EXPECT_EQ(count(contents(folder_ / "o/run.json"), "alien"), 0);
+  EXPECT_EQ(shell("mkdir o.part; echo alien > o.part/ledger.csv\n"
+                  "exec \"$BOUNCE\" run ball.toml --out o -q --force"),
+            2);
+  EXPECT_NE(err().find("o.part is there, and is no stopped run"), std::string::npos) << err();
+  EXPECT_EQ(contents(folder_ / "o.part/ledger.csv"), "alien\n");
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
   EXPECT_EQ(shell("echo mine > f.partial-$$; ln f.partial-$$ kept\n"
                   "exec \"$BOUNCE\" run ball.toml --out p -q --final-state f"),
             0)
@@ -156,7 +155,10 @@ TEST_F(DriverOutputTest, ASecondRunForADirectoryIsRefusedWhileTheFirstIsAtIt) {
   }
   kill(first, SIGKILL);
   EXPECT_EQ(finish(first), 1000 + SIGKILL);
-  EXPECT_EQ(run({"run", "ball.toml", "--out", "r", "-q"}), 0) << err();  // a crash leaves no lock
+  // A crash leaves no lock, but a run that can be gone on with.
+  EXPECT_EQ(run({"run", "ball.toml", "--out", "r", "-q"}), 2);
+  EXPECT_NE(err().find("\"bounce resume r\" goes on with it"), std::string::npos) << err();
+  EXPECT_EQ(run({"run", "ball.toml", "--out", "r", "-q", "--force"}), 0) << err();
   EXPECT_EQ(entry(folder_ / "r/run.json", "status"), "\"complete\"");
   for (const std::string& name : names()) EXPECT_EQ(name.find("lock"), std::string::npos) << name;
 }

@@ -22,18 +22,11 @@
 
 #include <gtest/gtest.h>
 
+#include "verify/tests/driver/file_contents.hpp"
+
 namespace bounce {
 
-namespace fs = std::filesystem;
-
 using Words = std::vector<std::string>;
-
-inline std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 inline std::ptrdiff_t lines(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n');
@@ -124,12 +117,10 @@ class ProgramTest : public testing::Test {
     fs::remove(folder_ / "script");
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
-  // Waits, at most 20 s, until a name that begins so is in the folder.
+  // Waits, at most 20 s, until there is something of that name in the folder.
   void wait_for(const std::string& name) const {
     for (int wait = 0; wait < 4000; ++wait) {
-      for (const std::string& each : names()) {
-        if (each.starts_with(name)) return;
-      }
+      if (fs::exists(folder_ / name)) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     ADD_FAILURE() << "no " << name;

@@ -97,7 +97,7 @@ TEST_F(DriverRefusalTest, NothingIsOverwrittenWithoutForce) {
 
 TEST_F(DriverRefusalTest, AFullDiskIsAnErrorThatLeavesNothing) {
   largest_file_ = 4096;  // scene.toml fits, a frame does not
-  EXPECT_EQ(run({"run", "example-2", "--steps", "10"}), 1);
+  EXPECT_EQ(run({"run", "example-2", "--steps", "10"}), 4);
   EXPECT_NE(err().find("frames.extxyz: cannot be written: "), std::string::npos) << err();
   EXPECT_EQ(names(), Words{});
 }

@@ -1,12 +1,20 @@
 // What bounce run makes of a scene.
 #include <omp.h>
 
+#include "driver/scene/state_file.hpp"
 #include "verify/tests/driver/program_test.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {
 
-using DriverRunTest = ProgramTest;
+class DriverRunTest : public ProgramTest {
+ protected:
+  // The last state of a run's directory.
+  [[nodiscard]] State state_in(const fs::path& directory) const {
+    return read_state((folder_ / directory / "final.csv").string());
+  }
+};
 
 TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   ASSERT_EQ(run({"run", "example-2", "--steps", "20000", "--set", "output.frames_every=0.01"}), 0)
@@ -14,8 +22,8 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   EXPECT_EQ(err(), "");  // no progress where there is no terminal
   EXPECT_EQ(names(), Words{"runs"});
   EXPECT_EQ(names("runs"), Words{"example-2"});
-  EXPECT_EQ(names("runs/example-2"),
-            (Words{"final.csv", "frames.extxyz", "monitor.csv", "run.json", "scene.toml"}));
+  EXPECT_EQ(names("runs/example-2"), (Words{"checkpoint", "final.csv", "frames.extxyz",
+                                            "monitor.csv", "run.json", "scene.toml"}));
   const fs::path at = folder_ / "runs/example-2";
   EXPECT_EQ(entry(at / "run.json", "status"), "\"complete\"");
   EXPECT_EQ(entry(at / "run.json", "steps"), "20000");
@@ -32,6 +40,7 @@ TEST_F(DriverRunTest, ARunWritesItsDirectory) {
   // The resolved scene runs again, to the same bits.
   ASSERT_EQ(run({"run", "runs/example-2/scene.toml", "--out", "again", "--quiet"}), 0) << err();
   EXPECT_EQ(out(), "");
+  EXPECT_TRUE(same_state(state_in("again"), state_in("runs/example-2")));
   EXPECT_EQ(entry(folder_ / "again/run.json", "state_hash"), hash);
 }
 
@@ -136,6 +145,7 @@ TEST_F(DriverRunTest, AFinalStateContinuesToTheBit) {
   ASSERT_EQ(run({"run", "example-5", "--steps", "5000", "--out", "c"}), 0) << err();
   const std::string hash = entry(folder_ / "b/run.json", "state_hash");
   EXPECT_EQ(hash.size(), 18U);
+  EXPECT_TRUE(same_state(state_in("b"), state_in("c")));
   EXPECT_EQ(hash, entry(folder_ / "c/run.json", "state_hash"));
   EXPECT_NE(hash, entry(folder_ / "runs/example-5/run.json", "state_hash"));
 }
@@ -143,8 +153,8 @@ TEST_F(DriverRunTest, AFinalStateContinuesToTheBit) {
 TEST_F(DriverRunTest, TheListingsFramesCanBeReadBack) {
   ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--listing-frames", "--out", "r"}), 0)
       << err();
-  EXPECT_EQ(names("r"), (Words{"BAL4.OUT", "final.csv", "frames.extxyz", "monitor.csv", "run.json",
-                               "scene.toml"}));
+  EXPECT_EQ(names("r"), (Words{"BAL4.OUT", "checkpoint", "final.csv", "frames.extxyz",
+                               "monitor.csv", "run.json", "scene.toml"}));
   EXPECT_EQ(lines(contents(folder_ / "r/BAL4.OUT")), 360U);
   // Read as a start, it is the first frame, number for number.
   ASSERT_EQ(run({"run", "example-2", "--steps", "1", "--initial", "r/BAL4.OUT", "--out", "s"}), 0)
@@ -174,7 +184,7 @@ TEST_F(DriverRunTest, ListingFramesComeEachMillionSteps) {
       << err();
   const Words files = names("r");
   EXPECT_EQ(Words(files.begin(), files.begin() + 3), (Words{"BAL4.OUT", "BAL4.OUT1", "BAL4.OUT2"}));
-  EXPECT_EQ(files[3], "final.csv");
+  EXPECT_EQ(files[3], "checkpoint");
 }
 
 // A step so short that the scene's own end would be too many of them.
@@ -191,7 +201,7 @@ TEST_F(DriverRunTest, StepsReplaceAnEndThatIsTooFar) {
 
 TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
   const pid_t child = start({"run", "example-2", "--t-end", "100000", "--out", "r"});
-  wait_for("r.partial-");
+  wait_for("r.part");
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   kill(child, SIGINT);
   EXPECT_EQ(finish(child), 130) << err();
@@ -200,6 +210,10 @@ TEST_F(DriverRunTest, CtrlCKeepsWhatIsWritten) {
   EXPECT_EQ(entry(folder_ / "r/run.json", "status"), "\"interrupted\"");
   EXPECT_GT(std::stol(entry(folder_ / "r/run.json", "steps")), 0);
   EXPECT_EQ(lines(contents(folder_ / "r/final.csv")), 361U);
+  // The last row of the monitor is of the last state.
+  const std::string monitor = contents(folder_ / "r/monitor.csv");
+  const std::string row = monitor.substr(monitor.rfind('\n', monitor.size() - 2) + 1);
+  EXPECT_NEAR(std::stod(row), std::stod(entry(folder_ / "r/run.json", "time")), 1e-9) << row;
 }
 
 TEST_F(DriverRunTest, SetChangesWhatRuns) {

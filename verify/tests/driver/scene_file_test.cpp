@@ -267,6 +267,34 @@ TEST(SceneFileTest, SetTakesWordsWallsAndWhatReplacesWhat) {
   EXPECT_EQ(file.scene().walls[0].offset, -50.0);
 }
 
+// Each key of each wall, one at a time: the wall named changes, and no other.
+TEST(SceneFileTest, SetOfOneWallLeavesTheOthers) {
+  const auto scene_with = [](const std::string& assignment) {
+    SceneFile file = SceneFile::find("example-7");
+    file.set(
+        "wall=[{normal=[0,1], offset=-1}, {normal=[0,1], offset=-2}, {normal=[0,1], offset=-3}]");
+    if (!assignment.empty()) file.set(assignment);
+    return file.scene();
+  };
+  const Scene before = scene_with("");
+  for (std::size_t w = 0; w < 3; ++w) {
+    const std::string name = "wall[" + std::to_string(w) + "].";
+    for (const char* value : {"normal=[1,0]", "offset=-9", "alpha=0.5", "beta=-0.5"}) {
+      const Scene after = scene_with(name + value);
+      ASSERT_EQ(after.walls.size(), 3U);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Wall& a = before.walls[k];
+        const Wall& b = after.walls[k];
+        const bool same = a.normal.x == b.normal.x && a.normal.y == b.normal.y &&
+                          a.offset == b.offset && a.alpha == b.alpha && a.beta == b.beta;
+        EXPECT_EQ(same, k != w) << name << value << ", wall " << k;
+      }
+    }
+  }
+  // The key without a number is every wall's.
+  for (const Wall& wall : scene_with("wall.offset=-9").walls) EXPECT_EQ(wall.offset, -9.0);
+}
+
 TEST(SceneFileTest, SetRefusesWithTheSameSortOfMessage) {
   EXPECT_EQ(set_refusal("law.p=true"),
             "--set: law.p = true: allowed is a number, as in 0.5 or 1e-6");

@@ -50,6 +50,26 @@ TEST(ScheduleTest, FramesAtTimesComeInOrderAndOnce) {
   EXPECT_EQ(frames(Schedule(scene, false)), (std::vector<std::int64_t>{}));
 }
 
+// A time between two steps is taken at the nearer one, whatever it is that happens then.
+TEST(ScheduleTest, TimesBetweenStepsGoToTheNearerOne) {
+  Scene scene = quiet_scene();
+  scene.time.step = 0.25;
+  scene.time.end = 100.1;  // 400.4 steps
+  scene.output.frames_at = {0.1, 1.2, 1.3, 4.9, 100.1};
+  EXPECT_EQ(frames(Schedule(scene, false)), (std::vector<std::int64_t>{0, 5, 20, 400}));
+  scene.output.frames_at.clear();
+  scene.output.frames_every = 33.3;  // 133.2, 266.4, 399.6 steps
+  EXPECT_EQ(frames(Schedule(scene, false)), (std::vector<std::int64_t>{0, 133, 266, 400}));
+  scene.output.frames_every.reset();
+  scene.output.monitor_every = 0.7;  // 2.8 steps, and whole multiples of what that is rounded to
+  const Schedule schedule(scene, false);
+  EXPECT_EQ(schedule.next(0), 3);
+  EXPECT_EQ(schedule.next(3), 6);
+  EXPECT_EQ(schedule.end(), 400);
+  scene.time.end = 99.9;  // 399.6
+  EXPECT_EQ(Schedule(scene, false).end(), 400);
+}
+
 TEST(ScheduleTest, SamplesComeAtTheirIntervalAndAtTheEnd) {
   Scene scene;
   scene.time.end = 0.025;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "kernels/model/method.hpp"
 #include "kernels/model/problem.hpp"
@@ -167,6 +169,58 @@ TEST_P(MethodTest, IsReversibleAsDeclared) {
 
 INSTANTIATE_TEST_SUITE_P(All, MethodTest, testing::ValuesIn(method_names()),
                          [](const auto& param) { return test_name(param.param); });
+
+// The stages as they are run, in the papers' digits: kick, drift, kick ... Written from the papers
+// (tables there give the first half; what the sum rules leave over has been worked out by hand to
+// the same digits), so that a digit in the program's table is seen that its order would not show.
+struct Published {
+  const char* method;
+  std::vector<double> parts;  // kicks and drifts by turns, beginning with a kick
+};
+
+std::vector<Published> published() {
+  return {
+      {"listing", {1.0, 1.0}},
+      {"leapfrog", {0.5, 1.0, 0.5, 0.0}},
+      // Yoshida 1990: 1/(2 - 2^(1/3)), and 1 less twice that.
+      {"yoshida-4",
+       {0.6756035959798289, 1.3512071919596578, -0.1756035959798288, -1.7024143839193153,
+        -0.1756035959798288, 1.3512071919596578, 0.6756035959798289, 0.0}},
+      // Omelyan, Mryglod, Folk 2002, PEFRL: xi, lambda, chi; (1 - 2 lambda)/2, 1 - 2 (chi + xi).
+      {"pefrl",
+       {0.0, 0.1786178958448091, 0.7123418310626054, -0.06626458266981849, -0.2123418310626054,
+        0.7752933736500188, -0.2123418310626054, -0.06626458266981849, 0.7123418310626054,
+        0.1786178958448091}},
+      // Blanes and Moan 2002, table 3, SRKN_6^b.
+      {"blanes-moan-4",
+       {0.0829844064174052, 0.245298957184271, 0.396309801498368, 0.604872665711080,
+        -0.0390563049223486, -0.350171622895351, 0.1195241940131508, -0.350171622895351,
+        -0.0390563049223486, 0.604872665711080, 0.396309801498368, 0.245298957184271,
+        0.0829844064174052, 0.0}},
+      // The same table, SRKN_11^b.
+      {"blanes-moan-6",
+       {0.0414649985182624,  0.123229775946271,  0.198128671918067,   0.290553797799558,
+        -0.0400061921041533, -0.127049212625417, 0.0752539843015807,  -0.246331761062075,
+        -0.0115113874206879, 0.357208872795928,  0.2366699247869311,  0.20477705429147,
+        0.2366699247869311,  0.357208872795928,  -0.0115113874206879, -0.246331761062075,
+        0.0752539843015807,  -0.127049212625417, -0.0400061921041533, 0.290553797799558,
+        0.198128671918067,   0.123229775946271,  0.0414649985182624,  0.0}},
+  };
+}
+
+TEST(Methods, HaveThePublishedCoefficients) {
+  constexpr double last_digit = 6e-16;  // of sums of up to ten of them, printed with 15 decimals
+  EXPECT_EQ(published().size(), methods().size()) << "a new method has no digits here";
+  for (const auto& [name, parts] : published()) {
+    const Method* method = find_method(name);
+    ASSERT_NE(method, nullptr) << name;
+    ASSERT_EQ(2 * method->stages.size(), parts.size()) << name;
+    for (std::size_t i = 0; i < method->stages.size(); ++i) {
+      EXPECT_NEAR(method->stages[i].kick, parts[2 * i], last_digit) << name << ", kick " << i;
+      EXPECT_NEAR(method->stages[i].drift, parts[2 * i + 1], last_digit) << name << ", drift " << i;
+    }
+  }
+}
 
 TEST(Methods, UnknownNameIsNull) { EXPECT_EQ(find_method("euler"), nullptr); }
 

@@ -12,6 +12,7 @@
 #include "kernels/model/bonds.hpp"
 #include "kernels/model/problem.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {

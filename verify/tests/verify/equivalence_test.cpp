@@ -15,6 +15,7 @@
 #include "kernels/plan/plan.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle.hpp"
+#include "verify/oracle/wall_scenes.hpp"
 
 namespace bounce {
 namespace {
@@ -198,6 +199,105 @@ TEST(Equivalence, SceneAtTheWallTouchesItSoon) {
   const bool met = std::any_of(state.vy.begin(), state.vy.end(), [](double v) { return v > -0.3; });
   EXPECT_TRUE(met);
 }
+
+// ---- the scenes of other walls
+
+// Nearest distance of a particle to each wall, from the start to wall_scene_steps. A wall that is
+// met is at most a step's way off, 3e-6 cm.
+std::vector<double> nearest(const Scene& scene) {
+  const Problem problem = make_problem(scene);
+  std::vector<double> found(problem.walls.size(), 1.0);
+  Oracle oracle(scene, problem.initial);
+  for (std::int64_t step = 0; step <= wall_scene_steps; ++step) {
+    if (step > 0) oracle.step(1);
+    const Listing& ball = oracle.listing();
+    for (std::size_t w = 0; w < found.size(); ++w) {
+      for (int i = 1; i <= 360; ++i) {
+        found[w] = std::min(found[w], wall_distance(problem.walls[w], ball.x[i], ball.y[i]));
+      }
+    }
+  }
+  return found;
+}
+
+TEST(WallScenes, MeetTheirWallsAndAreOfAllKinds) {
+  std::set<std::string> names, kernels_seen;
+  bool ceiling = false, upright = false, tilted = false, two = false, on = false, behind = false;
+  for (const auto& [name, scene] : wall_scenes()) {
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_LE(name.size(), 23U) << name << ": the table's column";
+    for (const double distance : nearest(scene)) EXPECT_LE(distance, 3e-6) << name;
+    for (const std::string& kernel : with_rows(scene)) kernels_seen.insert(kernel);
+    two = two || scene.walls.size() == 2;
+    const Problem problem = make_problem(scene);
+    for (const Wall& wall : problem.walls) {
+      ceiling = ceiling || wall.normal.y == -1.0;
+      upright = upright || wall.normal.y == 0.0;
+      tilted = tilted || (wall.normal.x != 0.0 && wall.normal.y != 0.0);
+      for (std::size_t i = 0; i < problem.initial.size(); ++i) {
+        const double d = wall_distance(wall, problem.initial.x[i], problem.initial.y[i]);
+        on = on || d == 0.0;
+        behind = behind || d < 0.0;
+      }
+    }
+  }
+  EXPECT_TRUE(ceiling && upright && tilted && two && on && behind)
+      << ceiling << upright << tilted << two << on << behind;
+  EXPECT_EQ(kernels_seen, (std::set<std::string>{"mirror", "ring", "annulus", "csr", "strict"}));
+}
+
+void take_ceilings_for_floors(Problem& problem) {
+  for (Wall& wall : problem.walls) {
+    if (wall.normal.x == 0.0) wall = {{0.0, 1.0}, std::abs(wall.offset), wall.alpha, wall.beta};
+  }
+}
+void forget_the_second_wall(Problem& problem) { problem.walls.resize(1); }
+void exchange_alpha_and_beta(Problem& problem) {
+  for (Wall& wall : problem.walls) std::swap(wall.alpha, wall.beta);
+}
+void lose_alpha(Problem& problem) {
+  for (Wall& wall : problem.walls) wall.alpha = 0.0;
+}
+void round_beta(Problem& problem) {
+  for (Wall& wall : problem.walls) wall.beta = std::nextafter(wall.beta, -1.0);
+}
+void lean_over(Problem& problem) {
+  for (Wall& wall : problem.walls) wall.normal.x = -wall.normal.x;
+}
+// Those that start behind a wall are put on the other side of it.
+void let_in_what_is_behind(Problem& problem) {
+  for (std::size_t i = 0; i < problem.initial.size(); ++i) {
+    const Wall& wall = problem.walls.front();
+    const double d = wall_distance(wall, problem.initial.x[i], problem.initial.y[i]);
+    if (d < 0.0) problem.initial.y[i] -= 2.0 * d * wall.normal.y;
+  }
+}
+
+class BrokenWalls : public testing::TestWithParam<Breakage> {};
+
+TEST_P(BrokenWalls, AreCaughtByAWallScene) {
+  const KernelUnderTest kernel = kernel_with(GetParam().kernel, GetParam().corrupt);
+  for (const auto& [name, scene] : wall_scenes()) {
+    if (GetParam().corrupt == forget_the_second_wall && scene.walls.size() < 2) continue;
+    const auto rows =
+        check_equivalence(name, scene, wall_scene_steps, false, std::span(&kernel, 1));
+    if (!all_pass(rows)) return;
+  }
+  ADD_FAILURE() << "seen by no scene";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BrokenWalls,
+                         testing::ValuesIn(std::vector<Breakage>{
+                             {"csr_ceiling", "csr", take_ceilings_for_floors},
+                             {"ring_ceiling", "ring", take_ceilings_for_floors},
+                             {"ring_second", "ring", forget_the_second_wall},
+                             {"annulus_exchanged", "annulus", exchange_alpha_and_beta},
+                             {"ring_alpha", "ring", lose_alpha},
+                             {"strict_beta", "strict", round_beta},
+                             {"csr_leaning", "csr", lean_over},
+                             {"ring_behind", "ring", let_in_what_is_behind},
+                         }),
+                         [](const auto& param) { return param.param.name; });
 
 TEST(Equivalence, UlpsBetween) {
   EXPECT_EQ(ulps_between(1.0, 1.0), 0.0);

@@ -13,6 +13,7 @@
 #include "kernels/model/problem.hpp"
 #include "verify/oracle/oracle.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {
@@ -98,10 +99,7 @@ void expect_same_bits(const State& start, std::int64_t least_reflected) {
     const State expected = fortran.bits();
     const State now = oracle.state();
     EXPECT_TRUE(is_finite(now));
-    EXPECT_EQ(first_difference(now.x, expected.x), -1);
-    EXPECT_EQ(first_difference(now.y, expected.y), -1);
-    EXPECT_EQ(first_difference(now.vx, expected.vx), -1);
-    EXPECT_EQ(first_difference(now.vy, expected.vy), -1);
+    EXPECT_TRUE(same_state(now, expected));
     std::ostringstream frame;
     write_listing_frame(frame, now);
     EXPECT_EQ(frame.str(), fortran.frame());

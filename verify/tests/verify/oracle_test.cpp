@@ -11,18 +11,14 @@
 #include "kernels/model/problem.hpp"
 #include "verify/oracle/oracle_stepper.hpp"
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {
 
 State paper_start() { return make_problem(paper_scene(2)).initial; }
 
-void expect_same_state(const State& a, const State& b) {
-  EXPECT_EQ(first_difference(a.x, b.x), -1);
-  EXPECT_EQ(first_difference(a.y, b.y), -1);
-  EXPECT_EQ(first_difference(a.vx, b.vx), -1);
-  EXPECT_EQ(first_difference(a.vy, b.vy), -1);
-}
+void expect_same_state(const State& a, const State& b) { EXPECT_TRUE(same_state(a, b)); }
 
 TEST(Oracle, ConstantsAreTheListingsLiterals) {
   const Oracle oracle(paper_scene(2), paper_start());

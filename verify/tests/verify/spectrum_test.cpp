@@ -12,6 +12,7 @@
 #include <random>
 
 #include "verify/tests/paper_scenes.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {

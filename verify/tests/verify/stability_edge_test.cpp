@@ -280,6 +280,24 @@ TEST(StabilityEdge, AnImpactBringsItNearer) {
   EXPECT_LT(edges[1].ratio, edges[0].ratio);
 }
 
+// By E as by the step: the soft impact leaves the edge where free flight has it, and that is at
+// E = (z / (dt sqrt(lambda)))^2 with lambda of E = 1.
+TEST(StabilityEdge, IsPredictedThroughABounceByEToo) {
+  EdgeCase edge = bounce_case(16000.0);
+  edge.sought = Sought::elasticity;
+  edge.scene.time.step = 1e-4;
+  const Problem problem = make_problem(edge.scene);
+  const double omega = fastest_vibration(problem, problem.initial).value().omega;
+  const double largest = 16000.0 * std::pow(2.0 / (1e-4 * omega), 2);
+  const Edge found = measured({edge}).front();
+  ASSERT_EQ(found.outcome, EdgeOutcome::found);
+  EXPECT_NEAR(found.strict / largest, 1.0, 0.02);
+  EXPECT_NEAR(found.predicted / largest, 1.0, 0.02);
+  EXPECT_NEAR(found.flight / largest, 1.0, 0.02);
+  EXPECT_NEAR(found.stable / largest, 1.0, 0.03);
+  EXPECT_LE(found.unstable, edge_ratio * found.stable);
+}
+
 TEST(StabilityEdge, IsTheSameForAnyThreadsAndCompany) {
   std::vector<EdgeCase> cases;
   for (const double e : {1000.0, 16000.0, 1e9}) {

@@ -1,6 +1,7 @@
 // monitor.csv: a run's energies, momenta and shape in the course of time.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "driver/world/files.hpp"
@@ -17,9 +18,16 @@ namespace bounce {
 class MonitorCsv {
  public:
   explicit MonitorCsv(const std::filesystem::path& path);
+  /// Goes on with a file of which `size` bytes count.
+  MonitorCsv(const std::filesystem::path& path, std::uint64_t size) : file_(path, size) {}
+  [[nodiscard]] OutputFile& file() { return file_; }
   /// The first sample written is the start.
   void write(double time, const Sample& sample, const LedgerInterval& interval, double stable_part);
   void close() { file_.close(); }
+  template <class Words>
+  void serialize(Words& words) {
+    words(started_, start_, walls_, drift_, impulse_x_, impulse_y_);
+  }
 
  private:
   OutputFile file_;

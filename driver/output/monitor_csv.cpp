@@ -1,4 +1,4 @@
-#include "driver/run/monitor_csv.hpp"
+#include "driver/output/monitor_csv.hpp"
 
 #include <fmt/format.h>
 

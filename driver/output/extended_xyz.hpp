@@ -17,8 +17,12 @@ namespace bounce {
 class ExtendedXyz {
  public:
   ExtendedXyz(std::filesystem::path path, std::size_t per_ring);
+  /// Goes on with a file of which `size` bytes count; 0: there is none yet.
+  ExtendedXyz(const std::filesystem::path& path, std::size_t per_ring, std::uint64_t size);
   void write(std::int64_t step, double time, const State& state);
   void close();
+  /// Null before the first frame.
+  [[nodiscard]] OutputFile* file() { return file_ ? &*file_ : nullptr; }
 
  private:
   std::filesystem::path path_;

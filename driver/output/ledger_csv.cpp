@@ -1,4 +1,4 @@
-#include "driver/run/ledger_csv.hpp"
+#include "driver/output/ledger_csv.hpp"
 
 #include <fmt/format.h>
 

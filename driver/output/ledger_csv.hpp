@@ -1,6 +1,7 @@
 // ledger.csv: what the walls and the integrator did from sample to sample (bounce run --ledger).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "driver/world/files.hpp"
@@ -14,6 +15,9 @@ namespace bounce {
 class LedgerCsv {
  public:
   explicit LedgerCsv(const std::filesystem::path& path);
+  /// Goes on with a file of which `size` bytes count.
+  LedgerCsv(const std::filesystem::path& path, std::uint64_t size) : file_(path, size) {}
+  [[nodiscard]] OutputFile& file() { return file_; }
   void write(double time, const LedgerInterval& interval);
   void close() { file_.close(); }
 

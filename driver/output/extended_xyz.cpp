@@ -1,4 +1,4 @@
-#include "driver/run/extended_xyz.hpp"
+#include "driver/output/extended_xyz.hpp"
 
 #include <iterator>
 #include <utility>
@@ -9,6 +9,16 @@ namespace bounce {
 
 ExtendedXyz::ExtendedXyz(std::filesystem::path path, std::size_t per_ring)
     : path_(std::move(path)), per_ring_(per_ring) {}
+
+ExtendedXyz::ExtendedXyz(const std::filesystem::path& path, std::size_t per_ring,
+                         std::uint64_t size)
+    : ExtendedXyz(path, per_ring) {
+  std::error_code ignored;
+  if (size > 0)
+    file_.emplace(path_, size);
+  else
+    std::filesystem::remove(path_, ignored);
+}
 
 void ExtendedXyz::write(std::int64_t step, double time, const State& state) {
   if (!file_) file_.emplace(path_);
