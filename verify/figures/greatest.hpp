@@ -95,7 +95,7 @@ class Greatest {
   template <class Words>
   void serialize(Words& words) {
     words(quantum_, kept_, rounding_, seen_, bend_, any_, last_, pending_, searched_, open_,
-          left_bound_, left_value_, left_time_, left_bend_);
+          left_bound_, left_value_, left_time_, left_bend_, left_error_);
   }
 
  private:
@@ -136,11 +136,11 @@ class Greatest {
   std::optional<Piece> pending_;  // the last piece, whose right neighbour is not known yet
   bool searched_ = false;         // the last piece is done with
   std::vector<Piece> open_;       // falling bound
-  // Of what is left open for good: its highest bound, the highest value of a cubic, when, and the
-  // second derivative there.
+  // Of what is left open for good: its highest bound, the highest value of a cubic, when, the
+  // second derivative there and the cubic's error.
   double left_bound_ = -std::numeric_limits<double>::infinity();
   double left_value_ = -std::numeric_limits<double>::infinity();
-  double left_time_ = 0.0, left_bend_ = 0.0;
+  double left_time_ = 0.0, left_bend_ = 0.0, left_error_ = 0.0;
 };
 
 }  // namespace bounce
