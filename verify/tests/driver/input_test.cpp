@@ -56,7 +56,7 @@ class DriverInputTest : public ProgramTest {
     Words all{"run", "--force", "-q", "--out", "r"};
     all.insert(all.end(), words.begin(), words.end());
     EXPECT_EQ(run(all), 0) << err();
-    return read_state((folder_ / "r/final.csv").string());
+    return read_state((folder_ / "r/final.csv").string()).state;
   }
   std::string csv_, listing_;
 };
@@ -152,7 +152,7 @@ TEST_F(DriverInputTest, PipesAreReadOnce) {
        {"run pipe --out c", "show pipe", "advise pipe --error 1e-2", "stability pipe --predict"}) {
     EXPECT_EQ(run_with("ball.toml", words), 0) << words << err();
   }
-  write("paper.toml", "[[wall]]\n[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n");
+  write("paper.toml", "[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n");
   EXPECT_EQ(run_with("paper.toml", "verify pipe --quick"), 0) << err();
 }
 
@@ -178,6 +178,20 @@ TEST_F(DriverInputTest, MessagesCanBeRead) {
   ASSERT_EQ(run({"run", "ball.toml", "--set", "title=\"a\\u0000b\\nc\"", "--out", "t"}), 0)
       << err();
   EXPECT_NE(out().find("a\\x00b\\nc\n"), std::string::npos) << out();
+}
+
+// What --set is given stands in the run's scene.toml, which has to be read again.
+TEST_F(DriverInputTest, SettingsThatAreNoTextAreRefused) {
+  refused({"run", "ball.toml", "--set", "title=two w\x91\x88rds"},
+          {"--set title=two w\\x91\\x88rds: is not UTF-8"});
+  refused({"show", "ball.toml", "--set", "title=a\rb"}, {"ends with a carriage return alone"});
+}
+
+TEST_F(DriverInputTest, AFileWithoutAnEndIsRefusedBeforeMemoryIsFull) {
+  memory_ = rlim_t{1} << 30;
+  refused({"run", "ball.toml", "--initial", "/dev/zero"},
+          {"/dev/zero: more than 0.", " GB, which this process has no memory for"});
+  refused({"show", "/dev/zero"}, {"/dev/zero: more than 0."});
 }
 
 TEST_F(DriverInputTest, NumbersThatAreNoneAreSaidAsSuch) {
