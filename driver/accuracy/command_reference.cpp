@@ -211,7 +211,7 @@ void add_reference_command(CLI::App& program, CommandContext& context) {
       "The model in continuous time, with the walls' rule in the limit of small steps, is solved\n"
       "by GSL's adaptive rk8pd in double precision and by Blanes and Moan's symplectic method of\n"
       "order 6 with fixed steps in extended precision; contacts are located by root finding. What\n"
-      "the two differ by is the error bar of either. The time step, method and contact rule of "
+      "the two differ by, twice, is the error bar. The time step, method and contact rule of "
       "the\n"
       "scene do not enter. A third run, from a start disturbed a little, shows how errors grow.\n"
       "Results: reference.csv (per sample: centre, its velocity, energies, lowest point; the\n"

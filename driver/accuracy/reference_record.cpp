@@ -28,13 +28,14 @@ std::vector<Sample> sample_path(const Problem& problem, const ReferencePath& pat
   return samples;
 }
 
-// The difference of the two, and no less than what was found of either is good to, or a rounding.
+// Twice the difference of the two, as that is the error of the worse one give or take the other's,
+// and no less than what was found of either is good to, or a rounding.
 Observable observable(std::string_view name, std::string_view unit,
                       const std::optional<Figure>& fixed, const std::optional<Figure>& adaptive) {
   Observable result{name, unit, {}, {}};
   if (fixed) result.value = fixed->value;
   if (!fixed || !adaptive) return result;
-  const double apart = std::abs(fixed->value - adaptive->value);
+  const double apart = 2.0 * std::abs(fixed->value - adaptive->value);
   const double rounding = std::abs(fixed->value) * std::numeric_limits<double>::epsilon();
   const double least = std::max({fixed->found_to, adaptive->found_to, rounding});
   result.error = apart <= least ? least : apart;  // a NaN stays

@@ -14,8 +14,8 @@
 
 namespace bounce {
 
-/// A figure of a scene with its error bar: the difference of the two solutions, and no less than what
-/// either was found to.
+/// A figure of a scene with its error bar: twice the difference of the two solutions, and no less
+/// than what either was found to.
 struct Observable {
   std::string_view name, unit;
   std::optional<double> value;  ///< of the fixed-step solution; none: it has none

@@ -132,8 +132,8 @@ RunHooks make_hooks(const RunJob& job, const Schedule& schedule, Stepper& steppe
   };
   hooks.progress = [&](std::int64_t step) { progress.update(step); };
   hooks.stop = interrupted;
-  hooks.next_look = [&writer](std::int64_t step) { return writer.next_look(step); };
-  hooks.look = [&writer, &stepper] { writer.look(stepper); };
+  hooks.next_look = [&](std::int64_t step) { return writer.next_look(step); };
+  hooks.look = [&] { writer.look(stepper); };
   if (job.checkpoint_every <= 0.0) return hooks;
   hooks.checkpoint_due = [&] { return checkpoints.due(); };
   hooks.checkpoint = [&](const std::function<void(WordWriter&)>& loop) {
@@ -149,8 +149,8 @@ void simulate(const RunJob& job, RunDirectory& directory, Stepper& stepper, cons
   std::optional<WordReader> from;
   if (job.from) from.emplace(job.from->words);
   const Schedule schedule(job.scene, job.settings.listing_frames);
-  BounceGauge figures(job.problem, job.scene.time.step, remake(record.plan));
-  RunWriter writer(job.scene, job.problem, directory.path(), std::move(figures), books,
+  RunWriter writer(job.scene, job.problem, directory.path(), books,
+                   BounceGauge(job.problem, job.scene.time.step, remake(record.plan)),
                    from ? &*from : nullptr);
   Progress progress(::isatty(STDERR_FILENO) != 0 && !job.settings.quiet, schedule.end(),
                     job.scene.time.step);

@@ -41,7 +41,6 @@ class RunLoop {
   Snapshot good_;
   Watch watch_;
   RunResult result_;
-  std::int64_t figures_at_ = 0;  // step of the last call of hooks_.look
   bool looked_ = false;          // at the start
   double seconds_before_ = 0.0;  // of the run before it was gone on with
   Clock::time_point began_ = Clock::now();
@@ -52,14 +51,13 @@ class RunLoop {
 void RunLoop::write_down() {
   if (!hooks_.checkpoint) return;
   hooks_.checkpoint([this](WordWriter& words) {
-    words(stepper_.save(), good_, watch_, result_.start, figures_at_,
-          seconds_before_ + seconds_since(began_));
+    words(stepper_.save(), good_, watch_, result_.start, seconds_before_ + seconds_since(began_));
   });
 }
 
 void RunLoop::go_on(WordReader& words) {
   Snapshot now;
-  words(now, good_, watch_, result_.start, figures_at_, seconds_before_);
+  words(now, good_, watch_, result_.start, seconds_before_);
   stepper_.restore(now);
   looked_ = true;
 }
@@ -69,15 +67,17 @@ bool RunLoop::advance_to(std::int64_t target) {
   constexpr double chunk_seconds = 0.05;
   while (stepper_.step() < target) {
     if (hooks_.stop()) return false;
-    const std::int64_t steps = std::min(chunk_, target - stepper_.step());
+    const std::int64_t now = stepper_.step(),
+                       look = hooks_.next_look ? hooks_.next_look(now) : target;
+    const std::int64_t steps = std::min({chunk_, target - now, look - now});
     const auto start = Clock::now();
     stepper_.advance(steps);
     const double seconds = seconds_since(start);
     if (steps == chunk_ && seconds < 0.5 * chunk_seconds) chunk_ *= 2;
     if (seconds > chunk_seconds) chunk_ = std::max<std::int64_t>(1, steps / 2);
+    if (hooks_.look && stepper_.step() == look) hooks_.look();
     hooks_.progress(stepper_.step());
-    const bool there = stepper_.step() == target;  // something else is due first
-    if (!there && hooks_.checkpoint_due && hooks_.checkpoint_due()) write_down();
+    if (hooks_.checkpoint_due && hooks_.checkpoint_due()) write_down();
   }
   return true;
 }
@@ -140,17 +140,11 @@ RunResult RunLoop::run() {
     if (good) write_down();
   }
   while (good && result_.status == RunStatus::complete && good_.step < schedule_.end()) {
-    const std::int64_t event = schedule_.next(good_.step);
-    const std::int64_t figures = hooks_.next_look ? hooks_.next_look(figures_at_) : event;
-    const bool there = advance_to(std::min(event, figures));
-    if (!there) result_.status = RunStatus::interrupted;
-    const std::int64_t now = stepper_.step();
-    if (!there || now == schedule_.end()) write_down();
-    if (now == figures && hooks_.look) {
-      hooks_.look();
-      figures_at_ = now;
-    }
-    if (now == event || (!there && now > good_.step)) good = look(result_.status);
+    const std::int64_t target = schedule_.next(good_.step);
+    if (!advance_to(target)) result_.status = RunStatus::interrupted;
+    const bool ends = result_.status == RunStatus::interrupted || target == schedule_.end();
+    if (ends) write_down();
+    if (stepper_.step() > good_.step) good = look(result_.status);
   }
   result_.seconds = seconds_before_ + seconds_since(began_);
   result_.steps_timed = stepper_.step();

@@ -27,10 +27,10 @@ struct RunHooks {
   /// of a run that ends or is stopped: what the end alone makes (a row out of turn) is not in it,
   /// so that the run can go on from there as if it had never ended.
   std::function<void(const std::function<void(WordWriter&)>& loop)> checkpoint;
-  /// The first step after that one at which `look` wants to be called; empty: at none. It is called
-  /// at the start, too, and before the watch has passed the state.
-  std::function<std::int64_t(std::int64_t step)> next_look{};
-  std::function<void()> look{};
+  /// The first step after that one at which `look` wants to be called; none: at no step. It is
+  /// called at the start, too.
+  std::function<std::int64_t(std::int64_t step)> next_look;
+  std::function<void()> look;
 };
 
 enum class RunStatus { complete, interrupted, unstable };

@@ -27,12 +27,12 @@ std::optional<RunWriter::Sizes> RunWriter::read_sizes(WordReader* from) {
 }
 
 RunWriter::RunWriter(const Scene& scene, const Problem& problem, fs::path folder,
-                     BounceGauge figures, const WallBooks* books, WordReader* from)
-    : RunWriter(scene, problem, std::move(folder), std::move(figures), books, from,
+                     const WallBooks* books, BounceGauge figures, WordReader* from)
+    : RunWriter(scene, problem, std::move(folder), books, std::move(figures), from,
                 read_sizes(from)) {}
 
 RunWriter::RunWriter(const Scene& scene, const Problem& problem, fs::path folder,
-                     BounceGauge figures, const WallBooks* books, WordReader* from,
+                     const WallBooks* books, BounceGauge figures, WordReader* from,
                      std::optional<Sizes> sizes)
     : folder_(std::move(folder)),
       time_step_(scene.time.step),
@@ -87,11 +87,11 @@ void RunWriter::sync() {
   if (OutputFile* frames = frames_.file()) frames->sync();
 }
 
-RunFindings RunWriter::finish(const Stepper& stepper, bool back) {
+RunFindings RunWriter::finish(const Stepper& stepper, bool unstable) {
   monitor_.close();
   if (ledger_) ledger_->close();
   frames_.close();
-  return gauges_.findings(stepper, back);
+  return gauges_.findings(stepper, unstable);
 }
 
 }  // namespace bounce

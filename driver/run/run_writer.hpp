@@ -16,11 +16,11 @@ namespace bounce {
 
 class RunWriter {
  public:
-  /// Writes into `folder`. `figures`: those of the run's bounce, from its start. `books`: the
-  /// stepper's, or null, then there is no ledger.csv. Problem and books have to outlive it. `from`: goes on with the files of a run that was written down, as the
+  /// Writes into `folder`. `books`: the stepper's, or null, then there is no ledger.csv. `figures`:
+  /// the run's gauge. Problem and books have to outlive it. `from`: goes on with the files of a run that was written down, as the
   /// words have it; throws OutputError if they are shorter than they were then.
   RunWriter(const Scene& scene, const Problem& problem, std::filesystem::path folder,
-            BounceGauge figures, const WallBooks* books, WordReader* from = nullptr);
+            const WallBooks* books, BounceGauge figures, WordReader* from = nullptr);
 
   void sample(std::int64_t step, const Sample& sample, const State& state);
   void frame(std::int64_t step, const State& state);
@@ -28,16 +28,16 @@ class RunWriter {
   /// end has no numbered file of its own beyond the nineteenth.
   void listing_frame(std::int64_t step, bool is_end, const State& state);
 
-  /// As RunGauges has them.
-  [[nodiscard]] std::int64_t next_look(std::int64_t step) const { return gauges_.next_look(step); }
-  void look(const Stepper& stepper) { gauges_.look(stepper); }
-
   /// Writes down what it knows, and how long its files are.
   void write_down(WordWriter& words);
   /// Returns once the files are on the disk.
   void sync();
-  /// Closes the files. `stepper`, `back`: as RunGauges::findings() has them.
-  RunFindings finish(const Stepper& stepper, bool back);
+  /// Looks at the run, at the steps that it asks for.
+  [[nodiscard]] std::int64_t next_look(std::int64_t step) const { return gauges_.next_look(step); }
+  void look(const Stepper& stepper) { gauges_.look(stepper); }
+  /// Closes the files of a run that ended where the stepper stands; `unstable`: that is before the
+  /// last steps taken.
+  RunFindings finish(const Stepper& stepper, bool unstable);
   [[nodiscard]] std::optional<Margin> margin() const { return margin_.result(); }
 
  private:
@@ -51,7 +51,7 @@ class RunWriter {
   };
   static std::optional<Sizes> read_sizes(WordReader* from);
   RunWriter(const Scene& scene, const Problem& problem, std::filesystem::path folder,
-            BounceGauge figures, const WallBooks* books, WordReader* from,
+            const WallBooks* books, BounceGauge figures, WordReader* from,
             std::optional<Sizes> sizes);
   [[nodiscard]] double time(std::int64_t step) const {
     return static_cast<double>(step) * time_step_;

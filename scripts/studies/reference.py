@@ -52,7 +52,7 @@ def markdown(all_found):
     return "\n".join([
         "# Reference solutions\n",
         "The centre's height and speed at the end, greatest height after the lowest, energy lost, greatest flattening, "
-        "each ± what the two solutions differ by; the largest difference of a particle's place at the end; by how much "
+        "each ± its error bar (what the two solutions differ by, or twice that); the largest difference of a particle's place at the end; by how much "
         "a start disturbed by 1e-10 of the shortest bond is farther off at the end. Where that is large, two courses "
         "may agree by chance, and the error bars of `bounce accuracy`, of three courses, are the better ones.\n",
         study.table(head, [row_of(scene, found) for scene, found in all_found.items()]),

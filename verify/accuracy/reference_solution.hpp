@@ -1,5 +1,5 @@
-// Two solutions of a scene that share neither method nor arithmetic; what they differ by is the
-// error bar of either.
+// Two solutions of a scene that share neither method nor arithmetic; twice what they
+// differ by is the error bar.
 //
 // What is solved is the model in continuous time: the motion under bonds and gravity, and the
 // walls' rule in the limit of small steps. Particle by particle and wall by wall that is

@@ -33,7 +33,7 @@ namespace bounce {
 /// Makes the kernel of a plan for other problems: the same bits, on one thread.
 ActFinder::Make remake(const Plan& plan);
 
-inline constexpr std::size_t most_kept_particles = 100'000;
+inline constexpr std::size_t most_kept_particles = 20'000;
 
 class BounceGauge {
  public:

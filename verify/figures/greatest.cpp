@@ -143,6 +143,7 @@ void Greatest::leave(const Piece& piece) {
     left_value_ = value;
     left_time_ = piece.from.time + piece.bound_at * piece.length();
     left_bend_ = piece.second(piece.bound_at);
+    left_error_ = piece.error;
   }
 }
 
@@ -229,7 +230,8 @@ Greatest::Result Greatest::result(const LookAgain& again) const {
       slope = 0.0;
       bend = all.left_bend_;
     }
-    result.found_to += std::max(all.left_bound_ - result.value, result.value - all.seen_.value);
+    result.found_to += std::max(all.left_bound_ - result.value,
+                                std::min(result.value - all.seen_.value, all.left_error_));
   }
   // How far from it the figure may be that much smaller.
   const double steep = std::abs(slope);

@@ -20,9 +20,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "kernels/stepping/stepper.hpp"
+#include "verify/watch/words.hpp"
 
 namespace bounce {
 
@@ -40,7 +43,9 @@ class KeptState {
     std::optional<Snapshot> copy;
     if (snapshot_) copy = *snapshot_;
     words(copy);
-    snapshot_ = copy ? std::make_shared<const Snapshot>(std::move(*copy)) : nullptr;
+    if constexpr (std::is_same_v<Words, WordReader>) {
+      snapshot_ = copy ? std::make_shared<const Snapshot>(std::move(*copy)) : nullptr;
+    }
   }
 
  private:
@@ -90,7 +95,7 @@ class Greatest {
   template <class Words>
   void serialize(Words& words) {
     words(quantum_, kept_, rounding_, seen_, bend_, any_, last_, pending_, searched_, open_,
-          left_bound_, left_value_, left_time_, left_bend_);
+          left_bound_, left_value_, left_time_, left_bend_, left_error_);
   }
 
  private:
@@ -131,11 +136,11 @@ class Greatest {
   std::optional<Piece> pending_;  // the last piece, whose right neighbour is not known yet
   bool searched_ = false;         // the last piece is done with
   std::vector<Piece> open_;       // falling bound
-  // Of what is left open for good: its highest bound, the highest value of a cubic, when, and the
-  // second derivative there.
+  // Of what is left open for good: its highest bound, the highest value of a cubic, when, the
+  // second derivative there and the cubic's error.
   double left_bound_ = -std::numeric_limits<double>::infinity();
   double left_value_ = -std::numeric_limits<double>::infinity();
-  double left_time_ = 0.0, left_bend_ = 0.0;
+  double left_time_ = 0.0, left_bend_ = 0.0, left_error_ = 0.0;
 };
 
 }  // namespace bounce

@@ -371,36 +371,49 @@ TEST(RunJson, HasTheLedgersNumbersUnderTheirNames) {
 
 TEST(RunJson, HasTheBouncesNumbersUnderTheirNames) {
   RunFindings findings;
-  findings.bounce.lowest_centre = 91.5;
-  findings.bounce.lowest_centre_time = 92.5;
-  findings.bounce.first_contact = 93.5;
-  findings.bounce.last_contact = 94.5;
-  findings.bounce.contact_time = 95.5;
-  findings.bounce.rebound_height = 96.5;
-  findings.bounce.energy_lost = 97.5;
-  findings.bounce.restitution = 0.375;
-  findings.bounce.greatest_flattening = 0.125;
-  findings.bounce.greatest_flattening_time = 98.5;
-  expect_values(bounce_json(findings), {{"/first_contact", 93.5},
-                                        {"/last_contact", 94.5},
-                                        {"/contact_time", 95.5},
-                                        {"/lowest_centre", 91.5},
-                                        {"/lowest_centre_time", 92.5},
-                                        {"/rebound_height", 96.5},
-                                        {"/restitution", 0.375},
-                                        {"/greatest_flattening", 0.125},
-                                        {"/greatest_flattening_time", 98.5}});
+  const std::vector<std::pair<std::optional<Figure> Bounce::*, const char*>> figures{
+      {&Bounce::lowest_centre, "lowest_centre"},
+      {&Bounce::lowest_centre_time, "lowest_centre_time"},
+      {&Bounce::first_contact, "first_contact"},
+      {&Bounce::last_contact, "last_contact"},
+      {&Bounce::contact_time, "contact_time"},
+      {&Bounce::rebound_height, "rebound_height"},
+      {&Bounce::energy_lost, "energy_lost"},
+      {&Bounce::greatest_flattening_time, "greatest_flattening_time"},
+      {&Bounce::end_height, "end_height"},
+      {&Bounce::end_speed, "end_speed"},
+      {&Bounce::restitution, "restitution"},
+      {&Bounce::greatest_flattening, "greatest_flattening"}};
+  std::vector<std::pair<std::string, Json>> expected;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const auto number = static_cast<double>(k);
+    const Figure figure{k < 10 ? 91.5 + number : 0.375 - 0.25 * (number - 10.0),
+                        1e-9 * (1.0 + number)};
+    findings.bounce.*figures[k].first = figure;
+    expected.emplace_back(std::string("/") + figures[k].second, figure.value);
+    expected.emplace_back(std::string("/found_to/") + figures[k].second, figure.found_to);
+  }
+  const Json json = bounce_json(findings);
+  for (const auto& [at, value] : expected) expect_values(json, {{at, value}});
+  EXPECT_EQ(json.size(), figures.size() + 1);
   const std::string text = summary_text(findings);
   for (const char* part :
        {"contact from 93.5 s to 94.5 s, 95.5 s in all", "centre lowest at 91.5 cm", "up to 96.5 cm",
-        "coefficient of restitution 0.375", "greatest flattening 0.1250 at 98.5 s"}) {
+        "coefficient of restitution 0.375", "greatest flattening 0.125 at 98.5 s"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in: " << text;
   }
-  findings.bounce.first_contact = -1.0;
-  findings.bounce.restitution.reset();
-  expect_values(
-      bounce_json(findings),
-      {{"/first_contact", nullptr}, {"/last_contact", nullptr}, {"/restitution", nullptr}});
+  // No more digits than were found.
+  findings.bounce.first_contact = Figure{93.5129, 0.004};
+  EXPECT_NE(summary_text(findings).find("contact from 93.51 s to"), std::string::npos)
+      << summary_text(findings);
+  for (const auto figure : {&Bounce::first_contact, &Bounce::last_contact, &Bounce::restitution}) {
+    (findings.bounce.*figure).reset();
+  }
+  expect_values(bounce_json(findings), {{"/first_contact", nullptr},
+                                        {"/last_contact", nullptr},
+                                        {"/restitution", nullptr},
+                                        {"/rebound_height", nullptr},
+                                        {"/found_to/rebound_height", nullptr}});
 }
 
 TEST(RunJson, TellsTheTroubleByItsNumbers) {
