@@ -56,7 +56,7 @@ class DriverInputTest : public ProgramTest {
     Words all{"run", "--force", "-q", "--out", "r"};
     all.insert(all.end(), words.begin(), words.end());
     EXPECT_EQ(run(all), 0) << err();
-    return read_state((folder_ / "r/final.csv").string());
+    return read_state((folder_ / "r/final.csv").string()).state;
   }
   std::string csv_, listing_;
 };
