@@ -18,7 +18,7 @@
 #include "bench/memory_rate.hpp"
 #include "bench/plain_sweep.hpp"
 #include "bench/run_rows.hpp"
-#include "driver/scene/memory_check.hpp"
+#include "driver/world/limits.hpp"
 #include "kernels/plan/plan.hpp"
 
 namespace bounce {

@@ -9,9 +9,9 @@
 
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
-#include "driver/world/cores.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/near_miss.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/shell_word.hpp"
@@ -49,6 +49,11 @@ std::string command_line(int argc, char** argv) {
     line += " " + shell_word(argv[i]);
   }
   return line;
+}
+
+Invocation invocation(int argc, char** argv) {
+  std::error_code ignored;
+  return {{argv + std::min(argc, 1), argv + argc}, std::filesystem::current_path(ignored)};
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {
@@ -95,7 +100,7 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CommandContext context{command_line(argc, argv), 0};
+  CommandContext context{command_line(argc, argv), 0, invocation(argc, argv)};
   CLI::App program("bounce: Greenspan's particle model of a bouncing elastic ball", "bounce");
   program.set_version_flag("--version", version_text);
   program.require_subcommand(1);

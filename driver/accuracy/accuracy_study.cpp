@@ -10,6 +10,7 @@
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_keys.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/limits.hpp"
 #include "kernels/model/ball.hpp"
 #include "kernels/model/method.hpp"
 #include "verify/accuracy/baseline.hpp"

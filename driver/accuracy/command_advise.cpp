@@ -10,6 +10,7 @@
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/shell_word.hpp"
 #include "kernels/plan/plan.hpp"
 

@@ -22,6 +22,7 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
 #include "kernels/plan/plan.hpp"

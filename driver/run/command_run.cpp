@@ -17,6 +17,7 @@
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/limits.hpp"
 #include "driver/world/run_directory.hpp"
 
 namespace bounce {

@@ -1,11 +1,7 @@
 #include "driver/scene/memory_check.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -23,38 +19,7 @@ constexpr double looking_bytes = 3 * 32.0 + 96.0;
 // The program itself, its threads and buffers.
 constexpr double program_bytes = 64e6;
 
-// The number behind `name` in a file of the kernel's, or `otherwise`.
-double number_in(const char* path, const std::string& name, double otherwise) {
-  std::ifstream file(path);
-  std::string word;
-  double value = 0.0;
-  while (file >> word) {
-    if (word == name && file >> value) return value;
-  }
-  return otherwise;
-}
-
-double only_number_in(const char* path, double otherwise) {
-  std::ifstream file(path);
-  double value = 0.0;
-  return file >> value ? value : otherwise;  // "max" is no number
-}
-
 }  // namespace
-
-double available_memory() {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  double bytes = 1024.0 * number_in("/proc/meminfo", "MemAvailable:", endless);
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    const double taken = 1024.0 * number_in("/proc/self/status", "VmSize:", 0.0);
-    bytes = std::min(bytes, static_cast<double>(limit.rlim_cur) - taken);
-  }
-  const double group = only_number_in("/sys/fs/cgroup/memory.max", endless);
-  const double taken = only_number_in("/sys/fs/cgroup/memory.current", 0.0) -
-                       number_in("/sys/fs/cgroup/memory.stat", "file", 0.0);  // can be dropped
-  return std::max(0.0, std::min(bytes, group - std::max(0.0, taken)));
-}
 
 double run_bytes(const Scene& scene, const std::string& kernel) {
   const auto particles = static_cast<double>(ball_size(scene.ball).particles);

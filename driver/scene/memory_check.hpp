@@ -9,10 +9,6 @@
 
 namespace bounce {
 
-/// Bytes that this process may still take: what the system calls available, less where a limit is
-/// set for the process (ulimit -v) or its control group.
-double available_memory();
-
 /// Bytes that `bounce run` takes at its peak: the solver, and what looking at a state costs.
 double run_bytes(const Scene& scene, const std::string& kernel);
 

@@ -251,6 +251,10 @@ void SceneFile::Reader::wall_option(const std::string& key, const toml::node& no
 
 void SceneFile::set(const std::string& assignment) {
   Reader reader{*this, "--set", false};
+  // What is written into the run's scene.toml has to read back.
+  if (const std::string fault = fault_of_line(assignment); !fault.empty()) {
+    throw InputError(fmt::format("--set {}: {}", shortened(assignment), fault));
+  }
   const auto equals = assignment.find('=');
   if (equals == std::string::npos) {
     throw InputError(fmt::format("--set {}: allowed is key=value, as in law.elasticity=1000",

@@ -130,21 +130,22 @@ void write_state_csv(OutputFile& file, const State& state, const std::optional<S
   file.write({out.data(), out.size()});
 }
 
-FiledState read_state(const std::string& path) {
-  const std::string text = read_text_file(path);
-  check_end(path, text);
-  const std::string_view first = trimmed(std::string_view(text).substr(0, text.find('\n')));
+FiledState read_state(const std::string& path) { return parse_state(read_text_file(path), path); }
+
+FiledState parse_state(std::string_view text, const std::string& name) {
+  check_end(name, text);
+  const std::string_view first = trimmed(text.substr(0, text.find('\n')));
   if (first == csv_header || first == held_header) {
-    return read_csv(path, text, first == held_header);
+    return read_csv(name, text, first == held_header);
   }
   try {
-    std::istringstream in(text);
+    std::istringstream in{std::string(text)};
     return {read_listing_frame(in), std::nullopt};
   } catch (const std::runtime_error& error) {
     throw InputError(
         fmt::format("{}: {} (allowed is the listing's format, 4F12.4, or a file that "
                     "begins with {})",
-                    path, error.what(), csv_header));
+                    name, error.what(), csv_header));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "driver/world/files.hpp"
 #include "kernels/model/state.hpp"
@@ -26,5 +27,7 @@ void write_state_csv(OutputFile& file, const State& state,
 /// Reads that CSV, or the listing's format: x, y, vx, vy as 4F12.4, one particle a line. Throws
 /// InputError naming file, line and what is allowed.
 FiledState read_state(const std::string& path);
+/// The same of a text that is there already; messages call it `name`.
+FiledState parse_state(std::string_view text, const std::string& name);
 
 }  // namespace bounce

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "driver/world/input_error.hpp"
+#include "driver/world/limits.hpp"
 
 namespace bounce {
 namespace fs = std::filesystem;
@@ -128,28 +129,45 @@ std::string read_bytes(const std::string& path) {
   if (!file) throw refuse();
   std::string text;
   std::array<char, 65536> buffer{};
+  std::size_t checked = std::size_t{16} << 20;  // below it nobody asks what memory has
   while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
     text.append(buffer.data(), got);
+    if (text.size() < checked) continue;
+    // A device may have no end. Three times: a copy while the text grows, and what is made of it.
+    checked += checked / 4;
+    if (!(3.0 * static_cast<double>(checked) <= available_memory())) {
+      throw InputError(fmt::format("{}: more than {:.2f} GB, which this process has no memory for",
+                                   path, 1e-9 * static_cast<double>(text.size())));
+    }
   }
   if (std::ferror(file.get()) != 0) throw refuse();
   return text;
 }
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path) { return text_of(read_bytes(path), path); }
+
+std::string text_of(std::string text, const std::string& name) {
   using namespace std::string_view_literals;
-  std::string text = read_bytes(path);
   if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv)) {
-    throw InputError(path + ":1: is not UTF-8 but UTF-16; allowed is text in UTF-8");
+    throw InputError(name + ":1: is not UTF-8 but UTF-16; allowed is text in UTF-8");
   }
   if (text.starts_with("\xef\xbb\xbf"sv)) text.erase(0, 3);
   std::size_t line = 1;
   for (std::size_t at = 0; at < text.size(); at += utf8_length(text, at)) {
     if (const std::string fault = fault_at(text, at); !fault.empty()) {
-      throw InputError(fmt::format("{}:{}: {}", path, line, fault));
+      throw InputError(fmt::format("{}:{}: {}", name, line, fault));
     }
     if (text[at] == '\n') ++line;
   }
   return text;
+}
+
+std::string fault_of_line(std::string_view line) {
+  std::string fault;
+  for (std::size_t at = 0; at < line.size() && fault.empty(); at += utf8_length(line, at)) {
+    fault = fault_at(line, at);
+  }
+  return fault;
 }
 
 OutputFile::OutputFile(fs::path path)

@@ -29,6 +29,10 @@ std::string read_bytes(const std::string& path);
 /// naming file and line where it is no such text: UTF-16, another encoding, a zero byte, lines that
 /// end with a carriage return alone.
 std::string read_text_file(const std::string& path);
+/// The same of bytes that are there already; messages call them `name`.
+std::string text_of(std::string bytes, const std::string& name);
+/// Why a line is not UTF-8, to stand behind its name; "" if it is.
+std::string fault_of_line(std::string_view line);
 
 /// What was asked for cannot be written; the message names file and reason.
 class OutputError : public std::runtime_error {

@@ -20,6 +20,8 @@ namespace bounce {
 struct Vec2 {
   double x = 0.0;
   double y = 0.0;
+
+  bool operator==(const Vec2&) const = default;
 };
 
 /// How E, E R0^2, g and the time step are stored before they are computed with.
@@ -52,6 +54,8 @@ struct BallSpec {
   Vec2 centre{0.0, 10.0};           ///< cm
   Vec2 velocity{};                  ///< cm/s, of every particle
   Rounding rounding = Rounding::listing;
+
+  bool operator==(const BallSpec&) const = default;
 };
 
 /// Force between neighbours at distance R: -G/R^p + H/R^q, G = elasticity, H = G R0^(q-p).
@@ -60,6 +64,8 @@ struct LawSpec {
   double q = 5.0;
   double elasticity = 16000.0;  ///< the paper's E (unit masses, cgs)
   Rest rest = Rest::listing;
+
+  bool operator==(const LawSpec&) const = default;
 };
 
 /// How a wall meets a particle (wall_rule.hpp).
@@ -78,6 +84,8 @@ struct Wall {
   double alpha = 0.0;   ///< 0 (full friction) to 1 (frictionless)
   double beta = 0.0;    ///< -1 (elastic) to 0
   Contact contact = Contact::listing;
+
+  bool operator==(const Wall&) const = default;
 };
 
 /// Step and length of a run.
@@ -85,6 +93,8 @@ struct TimeSpec {
   double step = 1e-6;  ///< s
   double end = 15.0;   ///< s
   std::string method = "listing";
+
+  bool operator==(const TimeSpec&) const = default;
 };
 
 /// What a run writes, and when. Either of the two frame keys may be given, not both.
@@ -92,6 +102,8 @@ struct OutputSpec {
   std::optional<double> frames_every;  ///< s
   std::vector<double> frames_at;       ///< s
   double monitor_every = 0.01;         ///< s
+
+  bool operator==(const OutputSpec&) const = default;
 };
 
 /// One simulation, as its scene file says it.
@@ -107,6 +119,8 @@ struct Scene {
 
   /// Number of steps from 0 to t (s), in the nominal step as the paper counts them.
   [[nodiscard]] std::int64_t steps_until(double t) const;
+
+  bool operator==(const Scene&) const = default;
 };
 
 /// A value that a scene may not have: which key, what stands there, what is allowed.

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/stepping/threads.hpp"
+
 namespace bounce {
 namespace {
 
@@ -107,11 +109,17 @@ void check_threads(int threads) {
 Plan make_plan(const Problem& problem, const PlanRequest& request,
                std::span<const KernelEntry> entries) {
   check_threads(request.threads);
+  const int cores = request.more_threads_than_cores ? most_threads : usable_cores();
   const KernelRequest asked{request.kernel, choose_vector(request.vector), request.vector != "auto",
-                            request.threads};
+                            std::min(request.threads, cores)};
   Preparation prepared = Choice(entries).pick(problem, asked, true);
   if (auto* plan = std::get_if<Plan>(&prepared)) {
     if (request.kernel != "auto") plan->reasons.emplace_back("the kernel was forced");
+    if (request.threads > cores) {
+      plan->reasons.emplace_back(std::to_string(request.threads) +
+                                 " threads were asked for; the cores it may use are " +
+                                 std::to_string(cores) + ", and more threads are slower");
+    }
     return std::move(*plan);
   }
   const std::string& why = std::get<Refusal>(prepared).why;

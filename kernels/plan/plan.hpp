@@ -14,7 +14,11 @@ namespace bounce {
 struct PlanRequest {
   std::string kernel = "auto";
   std::string vector = "auto";  ///< auto, avx2, avx512
-  int threads = 0;              ///< 1 to 256; 0: as many as pay
+  int threads = 0;              ///< at most, 1 to 256; 0: as many as pay
+  /// Threads beyond the cores this process may use (usable_cores()) are not started, as they would
+  /// wait for each other's turn at every stage, unless this is true: then the bits can be compared
+  /// on any machine.
+  bool more_threads_than_cores = false;
 };
 
 /// A forced choice that cannot run the problem. Never answered by running something else.

@@ -53,12 +53,7 @@ Preparation prepare_annulus(const Problem& problem, const KernelRequest& request
   }
   const std::int64_t columns = shape->per_ring / plan.lanes;
   const bool large = problem.initial.size() >= particles_worth_a_team;
-  const auto most = static_cast<int>(std::min<std::int64_t>(default_threads(), columns));
-  plan.threads = request.threads != 0 ? request.threads : large ? most : 1;
-  if (plan.threads > columns) {
-    return Refusal{std::to_string(plan.threads) + " threads are too many for its " +
-                   std::to_string(columns) + " columns of vectors"};
-  }
+  deal_threads(columns, 1, request, large ? default_threads() : 1, plan);
   plan.multiplications = annulus_multiplications(problem, shape->rings, columns);
   describe_rings(
       "the neighbour list is " + std::to_string(shape->rings) + " rings with constant offsets",

@@ -4,7 +4,6 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "kernels/rings/mirror.hpp"
@@ -52,12 +51,7 @@ Preparation prepare_mirror(const Problem& problem, const KernelRequest& request,
     return Refusal{why};
   }
   const std::int64_t columns = half / plan.lanes + 1;
-  plan.threads = request.threads == 0 ? team_size(columns) : request.threads;
-  if (const std::int64_t most = columns / fewest_columns; plan.threads > most) {
-    plan.threads = static_cast<int>(std::max<std::int64_t>(1, most));
-    plan.reasons.emplace_back(std::to_string(columns) + " columns of vectors are enough for " +
-                              std::to_string(plan.threads) + " threads: a thread needs three");
-  }
+  deal_threads(columns, fewest_columns, request, team_size(columns), plan);
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   describe_rings("the ball, its walls and gravity are left-right symmetric: half of it is stepped",
                  plan);

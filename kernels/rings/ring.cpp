@@ -32,6 +32,8 @@ HWY_AFTER_NAMESPACE();
 namespace bounce {
 namespace {
 
+constexpr std::int64_t fewest_columns = 2;  // of a thread
+
 Preparation prepare_ring(const Problem& problem, const KernelRequest& request,
                          const PrepareInside&) {
   const RingForm form = find_ring_form(problem);
@@ -42,11 +44,7 @@ Preparation prepare_ring(const Problem& problem, const KernelRequest& request,
     return Refusal{why};
   }
   const std::int64_t columns = shape.per_ring / plan.lanes;
-  plan.threads = request.threads == 0 ? team_size(columns) : request.threads;
-  if (plan.threads > 1 && plan.threads > columns / 2) {
-    return Refusal{std::to_string(plan.threads) + " threads are too many for its " +
-                   std::to_string(columns) + " columns of vectors: a thread needs two"};
-  }
+  deal_threads(columns, fewest_columns, request, team_size(columns), plan);
   plan.multiplications = ring_multiplications(problem, shape.rings, columns);
   describe_rings(
       "the neighbour list is " + std::to_string(shape.rings) + " rings with constant offsets",

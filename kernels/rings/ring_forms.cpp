@@ -80,6 +80,17 @@ int team_size(std::int64_t columns) {
       std::clamp<std::int64_t>(std::min(threads, columns / columns_that_pay), 1, most));
 }
 
+void deal_threads(std::int64_t columns, std::int64_t fewest, const KernelRequest& request,
+                  int usual, Plan& plan) {
+  plan.threads = request.threads == 0 ? usual : request.threads;
+  const std::int64_t most = std::max<std::int64_t>(1, columns / fewest);
+  if (plan.threads <= most) return;
+  plan.threads = static_cast<int>(most);
+  plan.reasons.emplace_back(std::to_string(columns) + " columns of vectors are enough for " +
+                            std::to_string(plan.threads) + " threads: a thread needs " +
+                            std::to_string(fewest));
+}
+
 RingTraversal ring_traversal(std::size_t columns, std::size_t threads, std::size_t bytes_a_column) {
   constexpr std::size_t cached_bytes =
       std::size_t{256} * 1024;                // a second-level cache has 512 kB or more

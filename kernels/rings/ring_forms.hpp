@@ -37,6 +37,11 @@ void describe_rings(const std::string& why, Plan& plan);
 /// short beside them, and there are no more than two for a ball that one core's cache holds.
 int team_size(std::int64_t columns);
 
+/// Fills the threads of a plan: those of the request, or `usual` where it names none, but no more
+/// than have `fewest` of the columns of vectors each; then the plan says so.
+void deal_threads(std::int64_t columns, std::int64_t fewest, const KernelRequest& request,
+                  int usual, Plan& plan);
+
 /// How the columns of a ball are taken:
 ///   loop   by one thread; the ball stays in the second-level cache
 ///   team   by more threads, which wait for each other once a stage

@@ -20,7 +20,7 @@ struct KernelRequest {
   std::string kernel;  ///< "auto" or a name; for a kernel that wraps another: which one
   VectorTarget vector = VectorTarget::none;  ///< to be used
   bool vector_is_forced = false;             ///< then no other one will do
-  int threads = 0;                           ///< 0: as many as pay
+  int threads = 0;                           ///< at most; 0: as many as pay
 };
 
 /// The decision, with what a reader of run.json wants to know of it.

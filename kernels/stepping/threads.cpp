@@ -3,9 +3,21 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 
 namespace bounce {
 
-int default_threads() { return std::min(omp_get_max_threads(), omp_get_num_procs()); }
+namespace {
+
+std::atomic<int> core_limit{std::numeric_limits<int>::max()};
+
+}  // namespace
+
+int usable_cores() { return std::max(1, std::min(omp_get_num_procs(), core_limit.load())); }
+
+void limit_cores(int most) { core_limit = most; }
+
+int default_threads() { return std::min(omp_get_max_threads(), usable_cores()); }
 
 }  // namespace bounce

@@ -11,8 +11,14 @@
 
 namespace bounce {
 
+/// Cores that this process may keep busy: the processors that it may run on, and no more than
+/// limit_cores() was last told; 1 at least. More threads than that never make a kernel faster, and
+/// as they wait for each other at every stage, they can make it a thousand times slower.
+int usable_cores();
+void limit_cores(int most);
+
 /// The number of threads where nobody asks for one: what OpenMP is set to (OMP_NUM_THREADS,
-/// omp_set_num_threads), and no more than the processors this process may run on.
+/// omp_set_num_threads), and no more than usable_cores().
 int default_threads();
 
 /// Particles from which on a kernel whose threads meet once a stage takes more than one thread by

@@ -180,6 +180,20 @@ TEST_F(DriverInputTest, MessagesCanBeRead) {
   EXPECT_NE(out().find("a\\x00b\\nc\n"), std::string::npos) << out();
 }
 
+// What --set is given stands in the run's scene.toml, which has to be read again.
+TEST_F(DriverInputTest, SettingsThatAreNoTextAreRefused) {
+  refused({"run", "ball.toml", "--set", "title=two w\x91\x88rds"},
+          {"--set title=two w\\x91\\x88rds: is not UTF-8"});
+  refused({"show", "ball.toml", "--set", "title=a\rb"}, {"ends with a carriage return alone"});
+}
+
+TEST_F(DriverInputTest, AFileWithoutAnEndIsRefusedBeforeMemoryIsFull) {
+  memory_ = rlim_t{1} << 30;
+  refused({"run", "ball.toml", "--initial", "/dev/zero"},
+          {"/dev/zero: more than 0.", " GB, which this process has no memory for"});
+  refused({"show", "/dev/zero"}, {"/dev/zero: more than 0."});
+}
+
 TEST_F(DriverInputTest, NumbersThatAreNoneAreSaidAsSuch) {
   for (const char* value : {"nan", "-nan", "inf", "-inf"}) {
     std::string text = csv_;

@@ -15,6 +15,7 @@
 
 #include "driver/scene/memory_check.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/limits.hpp"
 
 namespace bounce {
 namespace {

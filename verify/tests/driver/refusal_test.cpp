@@ -15,6 +15,7 @@ TEST_F(DriverRefusalTest, ABallThatMemoryCannotHoldIsRefusedBeforeItIsBuilt) {
   for (const Words& start : std::vector<Words>{{"run", "large-ball", "--error", "1"},
                                                {"accuracy", "large-ball"},
                                                {"advise", "large-ball", "--error", "1"},
+                                               {"stability", "large-ball", "--quick"},
                                                {"reference", "large-ball"}}) {
     all.push_back(start);
     all.back().insert(all.back().end(), ball.begin(), ball.end());

@@ -1,5 +1,6 @@
 // What bounce run makes of a scene.
 #include <omp.h>
+#include <sched.h>
 
 #include "driver/scene/state_file.hpp"
 #include "verify/tests/driver/program_test.hpp"
@@ -240,6 +241,30 @@ TEST_F(DriverRunTest, FollowsOmpNumThreads) {
                 .find("\"threads\": " + std::to_string(omp_get_num_procs()) + ","),
             std::string::npos)
       << "(where a control group allows fewer cores than there are, this fails)";
+}
+
+// On one core a team would wait for each other's turn at every stage: one thread runs, and is said.
+TEST_F(DriverRunTest, StartsNoMoreThreadsThanCores) {
+  cpu_set_t allowed, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  std::size_t first = 0;
+  while (!CPU_ISSET(first, &allowed)) ++first;
+  CPU_ZERO(&one);
+  CPU_SET(first, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);  // the program inherits it
+  for (const char* kernel : {"mirror", "ring", "annulus", "csr"}) {
+    for (const char* threads : {"16", "256"}) {
+      SCOPED_TRACE(std::string(kernel) + " " + threads);
+      EXPECT_EQ(run({"run", "example-2", "--steps", "10", "--kernel", kernel, "--threads", threads,
+                     "--force", "--out", "r"}),
+                0)
+          << err();
+      const std::string record = contents(folder_ / "r/run.json");
+      EXPECT_NE(record.find("\"threads\": 1,"), std::string::npos);
+      EXPECT_NE(record.find(std::string(threads) + " threads were asked for"), std::string::npos);
+    }
+  }
+  ASSERT_EQ(sched_setaffinity(0, sizeof allowed, &allowed), 0);
 }
 
 TEST_F(DriverRunTest, TheOtherCommandsTell) {

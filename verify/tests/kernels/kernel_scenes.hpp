@@ -74,11 +74,12 @@ inline Scene disc_scene(double radius, double spacing) {
   return scene;
 }
 
-/// That kernel and no other.
+/// That kernel and no other, on as many threads whatever this machine has.
 inline PlanRequest forced(const std::string& kernel, int threads = 1) {
   PlanRequest request;
   request.kernel = kernel;
   request.threads = threads;
+  request.more_threads_than_cores = true;
   return request;
 }
 

@@ -49,6 +49,7 @@ class MemoryTest : public testing::TestWithParam<Case> {
     request.kernel = c.kernel;
     request.vector = name_of(target);
     request.threads = 2;
+    request.more_threads_than_cores = true;
     const auto stepper = make_stepper(problem, request);
     stepper->advance(3);
     constexpr double fixed = 2e6;

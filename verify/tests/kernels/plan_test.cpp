@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <limits>
 #include <string>
 
 #include "kernels/model/problem.hpp"
@@ -42,6 +46,7 @@ TEST(Plan, TakesHalfTheBallWhereItIsSymmetricAndSaysWhyNot) {
   scene.ball.centre.x = 1.0;
   refused(scene, asymmetric + "particle 1 has no mirror image");
   PlanRequest two;
+  two.more_threads_than_cores = true;
   two.threads = 2;
   EXPECT_EQ(make_plan(make_problem(straight), two).kernel, "mirror");
   two.threads = 10;  // more than it has columns for: it takes fewer, and says so
@@ -107,13 +112,70 @@ TEST(Plan, GivesALargeBallAllThreads) {
   }
 }
 
+bool says(const Plan& plan, const std::string& begin) {
+  return std::any_of(plan.reasons.begin(), plan.reasons.end(),
+                     [&begin](const std::string& why) { return why.starts_with(begin); });
+}
+
+// The kernel, and with it the bits, are the same for any number of threads.
+TEST(Plan, TakesFewerThreadsWhereTheColumnsAreFewAndSaysSo) {
+  PlanRequest many = forced("auto", 200);
+  many.vector = "avx2";
+  const Plan ring = make_plan(make_problem(touching_scene()), many);
+  EXPECT_EQ(ring.kernel, "ring");
+  EXPECT_EQ(ring.threads, 15);
+  EXPECT_TRUE(says(ring, "30 columns of vectors are enough for 15 threads: a thread needs 2"));
+  Scene scene = touching_scene();
+  scene.law.rest = Rest::geometry;
+  scene.ball.radii = {3.0, 4.0, 5.0, 6.0, 7.0};
+  const Plan annulus = make_plan(make_problem(scene), many);
+  EXPECT_EQ(annulus.kernel, "annulus");
+  EXPECT_EQ(annulus.threads, 30);
+  EXPECT_TRUE(says(annulus, "30 columns of vectors are enough for 30 threads: a thread needs 1"));
+}
+
+// Of this process, now.
+std::ptrdiff_t threads_started() {
+  const std::filesystem::directory_iterator tasks("/proc/self/task");
+  return std::distance(begin(tasks), end(tasks));
+}
+
+// They would wait for each other's turn at every stage.
+TEST(Plan, StartsNoMoreThreadsThanCores) {
+  Scene straight = touching_scene();
+  straight.ball.velocity.x = 0.0;
+  const Problem problem = make_problem(straight);
+  limit_cores(1);
+  for (const char* kernel : {"mirror", "ring", "annulus", "csr", "strict"}) {
+    SCOPED_TRACE(kernel);
+    PlanRequest request = forced(kernel);
+    request.more_threads_than_cores = false;
+    auto one = make_stepper(problem, request);
+    one->advance(1500);
+    const std::ptrdiff_t before = threads_started();
+    for (const int threads : {16, 256}) {
+      request.threads = threads;
+      const Plan plan = make_plan(problem, request);
+      EXPECT_EQ(plan.threads, 1);
+      EXPECT_TRUE(says(plan, std::to_string(threads) + " threads were asked for; the cores"));
+      auto stepper = plan.make_stepper();
+      stepper->advance(1500);
+      EXPECT_EQ(threads_started(), before);
+      EXPECT_EQ(state_hash(stepper->state()), state_hash(one->state()));
+    }
+  }
+  PlanRequest forced_to = forced("csr", 3);
+  const std::ptrdiff_t before = threads_started();
+  make_stepper(problem, forced_to)->advance(3);
+  EXPECT_EQ(threads_started(), before + 2);
+  limit_cores(std::numeric_limits<int>::max());
+}
+
 TEST(Plan, FallsBackToCsrAndSaysWhy) {
   Scene scene = law_scene(1, 3);
   const Plan plan = make_plan(make_problem(scene));
   EXPECT_EQ(plan.kernel, "csr");
-  EXPECT_TRUE(std::any_of(plan.reasons.begin(), plan.reasons.end(), [](const std::string& why) {
-    return why.rfind("not ring: its exponents", 0) == 0;
-  }));
+  EXPECT_TRUE(says(plan, "not ring: its exponents"));
 }
 
 TEST(Plan, RefusesWhatItCannotDoAsForced) {
@@ -121,7 +183,6 @@ TEST(Plan, RefusesWhatItCannotDoAsForced) {
   EXPECT_THROW(make_plan(paper, forced("rign")), PlanError);
   EXPECT_THROW(make_plan(paper, forced("ring", -1)), PlanError);
   EXPECT_THROW(make_plan(paper, forced("ring", 257)), PlanError);
-  EXPECT_THROW(make_plan(paper, forced("ring", 200)), PlanError);  // more than its columns
   PlanRequest vector;
   vector.vector = "mmx";
   EXPECT_THROW(make_plan(paper, vector), PlanError);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -140,6 +141,20 @@ TEST(ParallelFor, BringsTheCallerOneOfSeveralFailures) {
 TEST(DefaultThreads, AreNoMoreThanTheProcessors) {
   EXPECT_GE(default_threads(), 1);
   EXPECT_LE(default_threads(), omp_get_num_procs());
+}
+
+TEST(UsableCores, AreTheProcessorsOrFewer) {
+  const int processors = omp_get_num_procs();
+  EXPECT_EQ(usable_cores(), processors);
+  for (const int limit : {1, processors, processors + 1}) {
+    limit_cores(limit);
+    EXPECT_EQ(usable_cores(), std::min(limit, processors));
+    EXPECT_LE(default_threads(), limit);
+  }
+  limit_cores(0);
+  EXPECT_EQ(usable_cores(), 1);
+  limit_cores(std::numeric_limits<int>::max());
+  EXPECT_EQ(usable_cores(), processors);
 }
 
 TEST(DefaultThreads, FollowWhatOpenMpIsSetTo) {

@@ -162,7 +162,7 @@ TEST_F(RunFiles, StatesHaveEachParticlesNumbers) {
     EXPECT_EQ(rows[i].at("i"), std::to_string(i + 1));
     expect_particle(rows[i], state, i);
   }
-  const State back = read_state((folder_ / "s").string());
+  const State back = read_state((folder_ / "s").string()).state;
   EXPECT_EQ(back.x, state.x);
   EXPECT_EQ(back.y, state.y);
   EXPECT_EQ(back.vx, state.vx);
