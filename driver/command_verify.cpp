@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
 
 #include "driver/equivalence_table.hpp"
 #include "driver/scene/scene_file.hpp"
@@ -16,8 +19,11 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
+#include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
+#include "driver/world/run_directory.hpp"
 #include "kernels/stepping/threads.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle.hpp"
@@ -26,9 +32,13 @@
 namespace bounce {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::int64_t default_steps = 1000000;
 constexpr std::int64_t quick_steps = 50000;
 constexpr std::int64_t wall_steps = 100000;  // of each scene once more, started at the wall
+
+struct Interrupted {};
 
 struct Options {
   std::vector<std::string> scenes;
@@ -64,6 +74,7 @@ std::vector<Case> make_cases(const Options& options) {
     cases.push_back({name, scene, std::min(steps, whole), true, {}});
   }
   for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (scenes[i].walls.empty()) continue;
     const std::int64_t steps = options.quick ? quick_steps : wall_steps;
     cases.push_back({options.scenes[i] + " at the wall", at_the_wall(scenes[i]), steps, true, {}});
   }
@@ -74,30 +85,46 @@ std::vector<Case> make_cases(const Options& options) {
   return cases;
 }
 
-// Cases on all cores, each on one; the longest first, so that none is left alone at the end.
-void run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& kernels) {
+// Cases on all cores, each on one; the longest first, so that none is left alone at the end. Those
+// that the journal has are not run. False if interrupted.
+bool run_cases(std::vector<Case>& cases, const std::vector<KernelUnderTest>& kernels,
+               Journal& journal) {
   std::vector<Case*> order;
   std::int64_t total = 0;
   for (Case& each : cases) {
+    if (auto rows = journal.find<std::vector<EquivalenceRow>>(each.name)) {
+      each.rows = std::move(*rows);
+      continue;
+    }
     order.push_back(&each);
     total += each.steps;
   }
+  say_going_on(cases.size() - order.size(), cases.size());
   std::stable_sort(order.begin(), order.end(),
                    [](const Case* a, const Case* b) { return a->steps > b->steps; });
   std::vector<std::atomic<std::int64_t>> done(order.size());
   Progress progress(isatty(STDERR_FILENO) != 0, total, 1e-6);
+  std::atomic<std::size_t> ended{cases.size() - order.size()};
   parallel_for(order.size(), 0, [&](std::size_t i) {
     Case& each = *order[i];
     const auto report = [&](std::int64_t steps) {
+      if (interrupted()) throw Interrupted{};
       done[i].store(steps);
       if (omp_get_thread_num() != 0) return;
       std::int64_t sum = 0;
       for (const auto& part : done) sum += part.load();
       progress.update(sum);
     };
-    each.rows =
-        check_equivalence(each.name, each.scene, each.steps, each.observables, kernels, report);
+    try {
+      report(0);
+      each.rows =
+          check_equivalence(each.name, each.scene, each.steps, each.observables, kernels, report);
+      journal.add(each.name, each.rows);
+      ++ended;
+    } catch (const Interrupted&) {  // of all that are left
+    }
   });
+  return ended == cases.size();
 }
 
 // The rows of all cases, in the order of the cases.
@@ -117,10 +144,33 @@ constexpr const char* explanation =
     "are\n"
     "the largest so far; observables are compared every 10 000 steps.\n";
 
-int verify(const Options& options) {
+// What the rows of a case depend on, beside its name.
+std::string task_of(const std::vector<Case>& cases, const Options& options) {
+  nlohmann::ordered_json json{{"vector", options.vector},
+                              {"cases", nlohmann::ordered_json::array()}};
+  for (const Case& each : cases) {
+    json["cases"].push_back({each.name, to_toml(each.scene), each.steps});
+  }
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+int verify(const Options& options, const CommandContext& context) {
   if (!options.out.empty()) check_output_path(options.out, true);
   std::vector<Case> cases = make_cases(options);
-  run_cases(cases, kernels_under_test(options.vector));
+  catch_interrupts();
+  std::error_code ignored;  // a device has no journal
+  const bool keeps = !options.out.empty() && (!fs::exists(options.out, ignored) ||
+                                              fs::is_regular_file(options.out, ignored));
+  const std::optional<OutputLock> lock =
+      keeps ? std::optional<OutputLock>(std::in_place, plain_path(options.out), options.out)
+            : std::nullopt;
+  Journal journal(keeps ? options.out : "", context.asked, task_of(cases, options), true);
+  if (!run_cases(cases, kernels_under_test(options.vector), journal)) {
+    const auto done = std::count_if(cases.begin(), cases.end(),
+                                    [](const Case& each) { return !each.rows.empty(); });
+    say_stopped(static_cast<std::size_t>(done), cases.size(), journal, options.out);
+    return interrupt_exit_code();
+  }
   const std::vector<EquivalenceRow> rows = rows_of(cases);
   const Origin origin = find_origin();
   const std::string text =
@@ -129,6 +179,7 @@ int verify(const Options& options) {
                   origin.cpu, origin.date);
   print_out("{}", text);
   if (!options.out.empty()) write_file_whole(options.out, text);
+  journal.finish();
   return is_equivalent(rows) ? 0 : 1;
 }
 
@@ -145,10 +196,10 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
   command->add_option("--vector", options->vector, "auto, avx2 or avx512");
   command->add_option("--out", options->out, "Write the table to this file, too");
   command->footer(
-      "Each scene is also run for a short while from just above its wall, at the speed of its\n"
-      "impact, so that short checks reach the contact. Where no scene is named, those of other "
-      "walls\n"
-      "come on top: ceilings, slopes, two walls, starts on a wall and behind it.\n"
+      "Each scene with walls is also run for a short while from just above its wall, at the\n"
+      "speed of its impact, so that short checks reach the contact. Where no scene is named,\n"
+      "those of other walls come on top: ceilings, slopes, two walls, starts on a wall and\n"
+      "behind it.\n"
       "Examples:\n"
       "  bounce verify --quick\n"
       "  bounce verify example-2 example-5\n"
@@ -158,7 +209,7 @@ void add_verify_command(CLI::App& program, CommandContext& context) {
     if (options->scenes.empty()) {
       for (int i = 1; i <= 7; ++i) options->scenes.push_back("example-" + std::to_string(i));
     }
-    context.exit_code = verify(*options);
+    context.exit_code = verify(*options, context);
   });
 }
 

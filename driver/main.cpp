@@ -51,6 +51,11 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
+Invocation invocation(int argc, char** argv) {
+  std::error_code ignored;
+  return {{argv + std::min(argc, 1), argv + argc}, std::filesystem::current_path(ignored)};
+}
+
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
@@ -95,7 +100,7 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CommandContext context{command_line(argc, argv), 0};
+  CommandContext context{command_line(argc, argv), 0, invocation(argc, argv)};
   CLI::App program("bounce: Greenspan's particle model of a bouncing elastic ball", "bounce");
   program.set_version_flag("--version", version_text);
   program.require_subcommand(1);

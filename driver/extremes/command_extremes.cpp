@@ -8,15 +8,20 @@
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
 
 #include "driver/extremes/extreme_table.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/near_miss.hpp"
 #include "driver/world/run_directory.hpp"
 #include "kernels/stepping/threads.hpp"
@@ -130,24 +135,45 @@ class TableFolder {
 
 double steps_of(const ExtremeRow& row) { return row.scene.time.end / row.scene.time.step; }
 
-// Rows side by side, the longest first; a line is printed as each ends.
-void run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& folder) {
+// Whether the row is like another one, or another one like it.
+bool is_compared(const ExtremeRow& row, const std::vector<ExtremeEntry>& entries) {
+  return !row.like.empty() ||
+         std::any_of(entries.begin(), entries.end(),
+                     [&row](const ExtremeEntry& other) { return other.row.like == row.name; });
+}
+
+// Rows side by side, the longest first; a line is printed as each ends. Those that the journal has
+// are not run. How many there are in the end.
+std::size_t run_rows(std::vector<ExtremeEntry>& entries, int threads, const fs::path& folder,
+                     Journal& journal) {
   std::vector<ExtremeEntry*> order;
-  order.reserve(entries.size());
-  for (ExtremeEntry& entry : entries) order.push_back(&entry);
+  for (ExtremeEntry& entry : entries) {
+    if (auto result = journal.find<ExtremeResult>(entry.row.name)) {
+      entry.result = std::move(*result);
+    } else {
+      order.push_back(&entry);
+    }
+  }
+  std::size_t done = entries.size() - order.size();
+  say_going_on(done, entries.size());
   std::stable_sort(order.begin(), order.end(), [](const ExtremeEntry* a, const ExtremeEntry* b) {
     return steps_of(a->row) > steps_of(b->row);
   });
   std::mutex one_at_a_time;
   parallel_for(order.size(), threads, [&](std::size_t i) {
     if (interrupted()) return;
-    order[i]->result = run_extreme_row(order[i]->row, folder);
+    ExtremeEntry& entry = *order[i];
+    entry.result = run_extreme_row(entry.row, folder, is_compared(entry.row, entries));
     const std::lock_guard lock(one_at_a_time);
-    print_err("{}\n", line_of(*order[i]));
+    if (interrupted()) return;  // it may have been, too
+    journal.add(entry.row.name, entry.result);
+    ++done;
+    print_err("{}\n", line_of(entry));
   });
+  return done;
 }
 
-void compare_rows(std::vector<ExtremeEntry>& entries, const fs::path& folder) {
+void compare_rows(std::vector<ExtremeEntry>& entries) {
   const std::string complete = name_of(Outcome::complete);
   for (ExtremeEntry& entry : entries) {
     if (entry.row.like.empty() || entry.result.happened != complete) continue;
@@ -159,11 +185,17 @@ void compare_rows(std::vector<ExtremeEntry>& entries, const fs::path& folder) {
       entry.result.detail += "; NOTHING TO COMPARE WITH: " + entry.row.like;
       continue;
     }
-    compare_with_like(entry.row, like->row, folder, entry.result);
+    compare_with_like(entry.row, like->row, like->result.last, entry.result);
   }
 }
 
-int extremes(const Options& options, const std::string& command_line) {
+std::string task_of(const std::vector<ExtremeEntry>& entries) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ExtremeEntry& entry : entries) json.push_back({entry.row.name, entry.row.text});
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+int extremes(const Options& options, const CommandContext& context) {
   std::vector<ExtremeEntry> entries = chosen(options);
   if (options.list) {
     for (const auto& [row, result] : entries) {
@@ -177,17 +209,19 @@ int extremes(const Options& options, const std::string& command_line) {
   const TableFolder tables(options.out);
   catch_interrupts();
   const RunsFolder folder(options.runs);
-  run_rows(entries, options.threads, folder.path());
-  if (interrupted()) {
-    print_err("bounce: interrupted; nothing is written\n");
+  Journal journal(options.out, context.asked, task_of(entries), true);
+  const std::size_t done = run_rows(entries, options.threads, folder.path(), journal);
+  if (done < entries.size()) {
+    say_stopped(done, entries.size(), journal, options.out);
     return interrupt_exit_code();
   }
-  compare_rows(entries, folder.path());
+  compare_rows(entries);
   for (const ExtremeEntry& entry : entries) print_out("{}\n", line_of(entry));
   if (!options.out.empty()) {
     write_file_whole(tables.csv(), extremes_csv(entries));
-    write_file_whole(tables.markdown(), extremes_markdown(entries, command_line));
+    write_file_whole(tables.markdown(), extremes_markdown(entries, context.command_line));
   }
+  journal.finish();
   const auto failed = std::count_if(entries.begin(), entries.end(), [](const ExtremeEntry& entry) {
     return !entry.result.as_expected;
   });
@@ -224,8 +258,7 @@ void add_extremes_command(CLI::App& program, CommandContext& context) {
       "  bounce extremes --quick\n"
       "  bounce extremes --only bond-1e-3 --runs runs/extremes\n"
       "  bounce run extremes/edge-above --force\n");
-  command->callback(
-      [options, &context] { context.exit_code = extremes(*options, context.command_line); });
+  command->callback([options, &context] { context.exit_code = extremes(*options, context); });
 }
 
 }  // namespace bounce

@@ -231,9 +231,13 @@ class Judge {
 
 }  // namespace
 
-ExtremeResult run_extreme_row(const ExtremeRow& row, const fs::path& folder) {
+ExtremeResult run_extreme_row(const ExtremeRow& row, const fs::path& folder, bool is_compared) {
   try {
-    return Judge(row, folder).run();
+    ExtremeResult result = Judge(row, folder).run();
+    if (is_compared && result.happened == name_of(Outcome::complete)) {
+      result.last = read_state((folder / row.name / "final.csv").string()).state;
+    }
+    return result;
   } catch (const std::exception& error) {  // run.json lacks something, a file cannot be read
     ExtremeResult result;
     result.happened = "fails";
@@ -256,10 +260,9 @@ Vec2 measure_centre(const State& state) {
 
 // A particle's coordinate is rounded once at the start and once a step, each time by at most 2^-53
 // of the place's size. The far ball's forces differ by what that does to bonds, which is no more.
-void compare_with_like(const ExtremeRow& row, const ExtremeRow& like, const fs::path& folder,
+void compare_with_like(const ExtremeRow& row, const ExtremeRow& like, const State& near,
                        ExtremeResult& result) {
-  const State far = read_state((folder / row.name / "final.csv").string()).state;
-  const State near = read_state((folder / like.name / "final.csv").string()).state;
+  const State& far = result.last;
   const Vec2 offset{row.scene.ball.centre.x - like.scene.ball.centre.x,
                     row.scene.ball.centre.y - like.scene.ball.centre.y};
   double difference = 0.0;

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <span>
@@ -157,8 +159,10 @@ void write_all(OutputFile& file, const CheckpointHead& head,
   WordWriter writer(put);
   body(writer);
   writer.finish();
-  put(std::vector<std::uint64_t>{count});
-  file.write(bytes_of(std::vector<std::uint64_t>{sum.value()}));
+  const std::array<std::uint64_t, 1> number{count};
+  put(number);
+  const std::array<std::uint64_t, 1> checksum{sum.value()};
+  file.write(bytes_of(checksum));
 }
 
 // The name `before` for the file at `now`, which keeps its own.
@@ -191,6 +195,16 @@ void write_checkpoint(const fs::path& folder, const CheckpointHead& head,
     keep_before(now, folder / before_name);
   });
   if (to_disk) sync_folder(folder);
+}
+
+void seal_checkpoint(std::string& bytes) {
+  std::vector<std::uint64_t> words = words_of(bytes);
+  if (words.size() < 2) return;
+  words[words.size() - 2] = words.size() - 2;
+  Checksum sum;
+  sum.add(std::span(words).first(words.size() - 1));
+  words.back() = sum.value();
+  bytes.assign(bytes_of(words));
 }
 
 Checkpoint read_checkpoint(const std::string& bytes, const std::string& name, bool any_commit) {

@@ -64,6 +64,10 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead&
 /// reason: foreign, newer, cut off, damaged, or of another program (which `any_commit` lets pass).
 Checkpoint read_checkpoint(const std::string& bytes, const std::string& name, bool any_commit);
 
+/// Makes the last two words of a checkpoint's bytes its number of words and its checksum; for tests,
+/// which change what is before them. Nothing below two words.
+void seal_checkpoint(std::string& bytes);
+
 /// That of a run's directory; `before`: the one before it. Where the checkpoint is refused and the
 /// one before it is whole, the message says how to take that.
 Checkpoint load_checkpoint(const std::filesystem::path& folder, bool before, bool any_commit);

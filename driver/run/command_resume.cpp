@@ -1,6 +1,12 @@
 // bounce resume: goes on with a run that was stopped, or beyond the end of one that is complete.
+#include <unistd.h>
+
+#include <cerrno>
 #include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +21,7 @@
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 
 namespace bounce {
@@ -60,7 +67,20 @@ std::optional<State> load_initial(const fs::path& folder, const RunSettings& set
   return read_state((folder / "initial.csv").string()).state;
 }
 
+// A command that goes on when it is asked the same again: asks that. Does not return.
+[[noreturn]] void ask_again(const Invocation& asked) {
+  std::vector<std::string> words{"bounce"};
+  words.insert(words.end(), asked.arguments.begin(), asked.arguments.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  fs::current_path(asked.folder);
+  ::execv("/proc/self/exe", arguments.data());
+  throw std::system_error(errno, std::generic_category(), "the command cannot be started again");
+}
+
 int resume(const Options& options) {
+  if (const auto asked = find_journal(options.directory)) ask_again(*asked);
   catch_interrupts();
   RunDirectory directory = RunDirectory::reopen(options.directory);
   const fs::path& folder = directory.path();
@@ -99,8 +119,8 @@ int resume(const Options& options) {
 void add_resume_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
-      program.add_subcommand("resume", "Go on with a run that was stopped, or beyond its end");
-  command->add_option("DIR", options->directory, "Where bounce run was to write (its --out)")
+      program.add_subcommand("resume", "Go on with what was stopped, or with a run beyond its end");
+  command->add_option("DIR", options->directory, "Where the command was to write (its --out)")
       ->required();
   auto* steps = command->add_option("--steps", options->steps, "Stop after N steps in all");
   command->add_option("--t-end", options->end, "Stop at time T, s [as the run was to]")
@@ -120,7 +140,10 @@ void add_resume_command(CLI::App& program, CommandContext& context) {
       "end. Whatever ended it, it goes on from the last time and ends with the same bits, rows "
       "and\n"
       "frames as one that was never stopped, with any number of threads and any vectors.\n"
-      "Exit code: as of bounce run.\n\n"
+      "Of stability, accuracy, reference, extremes and verify, which keep the cases that they "
+      "have\n"
+      "done, the command is given again as it was; the options here are for runs.\n"
+      "Exit code: as of that command.\n\n"
       "Examples:\n"
       "  bounce resume runs/example-2\n"
       "  bounce resume runs/example-2 --t-end 20\n");

@@ -22,11 +22,11 @@
 #include "driver/stability/edge_row.hpp"
 #include "driver/stability/edge_sweep.hpp"
 #include "driver/stability/edge_table.hpp"
-#include "driver/stability/sweep_directory.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
@@ -41,6 +41,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 namespace fs = std::filesystem;
+
+// The file by which the directory of a sweep is known.
+constexpr const char* marker = "edge.csv";
 
 struct Options {
   std::string scene;
@@ -224,14 +227,13 @@ Json origin_json(const Options& options, const SweepRequest& request, const std:
 }
 
 // What a stopped sweep must have in common with one that goes on with its rows.
-std::string arguments_json(const std::vector<SweepCase>& cases, const SweepRequest& request) {
+std::string task_of(const std::vector<SweepCase>& cases, const SweepRequest& request) {
   Json json{{"scene", to_toml(request.scene)},
             {"initial",
              request.initial ? Json(fmt::format("{:016x}", state_hash(*request.initial))) : Json()},
-            {"commit", find_origin().commit},
             {"cases", Json::array()}};
   for (const SweepCase& each : cases) json["cases"].push_back(each.key);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 // Work to expect of a case, in steps.
@@ -256,9 +258,9 @@ std::span<const SweepCase> next_together(std::span<const SweepCase> rest) {
   return rest.first(n);
 }
 
-// Measures what the directory lacks and adds it. False if it was interrupted.
-bool measure_missing(const std::vector<SweepCase>& cases, const Options& options,
-                     SweepDirectory& directory, std::map<std::string, std::string>& rows) {
+// Measures what is not there and adds it. False if it was interrupted.
+bool measure_missing(const std::vector<SweepCase>& cases, const Options& options, Journal& journal,
+                     std::map<std::string, std::string>& rows) {
   std::vector<SweepCase> missing;
   double work = 0.0;
   for (const SweepCase& each : cases) {
@@ -286,7 +288,7 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
       const Edge& edge = (*measured)[i];
       const double share = steps > 0.0 ? static_cast<double>(edge.steps) / steps : 0.0;
       const std::string line = edge_line(now[i].key, edge, seconds * share);
-      directory.add(line);
+      journal.add(now[i].key, line);
       rows[now[i].key] = line;
       done += expected_work(now[i], options.criterion);
     }
@@ -296,24 +298,21 @@ bool measure_missing(const std::vector<SweepCase>& cases, const Options& options
   return true;
 }
 
-int measure(const Options& options, const std::string& command_line) {
-  check_run_directory(options.directory(), options.force, SweepDirectory::marker);
+int measure(const Options& options, const CommandContext& context) {
+  RunDirectory directory(options.directory(), options.force, marker);
   const Case it = load_case(options, true);
   check_start(it);
   const SweepRequest request = request_of(options, it);
   const std::vector<SweepCase> cases = make_sweep(request);
-  SweepDirectory directory(options.directory(), options.force, arguments_json(cases, request));
-  std::map<std::string, std::string> rows = directory.found();
-  if (!rows.empty()) {
-    print_err("bounce: going on with a stopped sweep: {} of {} cases are there\n", rows.size(),
-              cases.size());
+  Journal journal(options.directory(), context.asked, task_of(cases, request), options.force);
+  std::map<std::string, std::string> rows;
+  for (const SweepCase& each : cases) {
+    if (const auto line = journal.find<std::string>(each.key)) rows[each.key] = *line;
   }
   catch_interrupts();
-  if (!measure_missing(cases, options, directory, rows)) {
-    print_err(
-        "bounce: interrupted; {} of {} cases are in {}; the same command goes on with "
-        "them\n",
-        rows.size(), cases.size(), directory.path().string());
+  say_going_on(rows.size(), cases.size());
+  if (!measure_missing(cases, options, journal, rows)) {
+    say_stopped(rows.size(), cases.size(), journal, options.directory());
     return interrupt_exit_code();
   }
   std::string csv = edge_header;
@@ -327,8 +326,9 @@ int measure(const Options& options, const std::string& command_line) {
   write_file_whole(directory.path() / "edge.csv", csv);
   write_file_whole(directory.path() / "table.txt", text);
   write_file_whole(directory.path() / "origin.json",
-                   origin_json(options, request, command_line).dump(2) + "\n");
+                   origin_json(options, request, context.command_line).dump(2) + "\n");
   directory.publish();
+  journal.finish();
   print_out("{}\nfiles: {}\n", text, options.directory().string());
   return 0;
 }
@@ -419,7 +419,7 @@ void add_stability_command(CLI::App& program, CommandContext& context) {
     if (options->predict) {
       predict(*options);
     } else {
-      context.exit_code = measure(*options, context.command_line);
+      context.exit_code = measure(*options, context);
     }
   });
 }

@@ -6,12 +6,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "driver/world/journal.hpp"
+
 namespace bounce {
 
 /// What the commands share with main().
 struct CommandContext {
   std::string command_line;
   int exit_code = 0;
+  Invocation asked{};
 };
 
 // Each adds its subcommand to the program; the callback runs when the user names it. Adding a

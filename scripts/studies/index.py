@@ -46,6 +46,8 @@ ROWS = (
     Row("extremes.md", "Stiff and extreme scenes, each with what it should do and what it did",
         "scripts/studies/extremes.sh", "the rows as numbers: [extremes.csv](extremes.csv)",
         ("extremes.md", "extremes.csv")),
+    Row("kills.md", "Runs killed at random moments and gone on with: what is lost", "scripts/studies/kills.py", "",
+        ("kills.md",)),
     Row("stability.md", "How large a time step is stable: predicted, and measured over E, speed and gravity",
         "scripts/studies/stability.sh", "every case: `stability/SCENE/edge.csv`", ("stability.md", "stability/")),
     Row("reference.md", "The seven examples solved in continuous time, with error bars",

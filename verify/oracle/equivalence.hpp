@@ -49,6 +49,11 @@ struct EquivalenceRow {
   std::string measured;
   std::string allowed;
   bool pass = false;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(scene, kernel, check, measured, allowed, pass);
+  }
 };
 
 /// Called now and then with the steps done so far.

@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -45,7 +46,7 @@ void serialize(Words& words, Snapshot& snapshot) {
 template <class T>
 concept OneWord = std::is_same_v<T, double> || std::is_integral_v<T> || std::is_enum_v<T>;
 
-/// Writes numbers, enumerations, vectors, deques, optionals and what has a serialize().
+/// Writes numbers, enumerations, text, vectors, deques, optionals and what has a serialize().
 class WordWriter {
  public:
   /// `sink` gets the words, some at a time.
@@ -64,6 +65,7 @@ class WordWriter {
  private:
   static constexpr std::size_t enough = 8192;  // words to be handed on at a time
 
+  void put(const char& letter) { put_word(static_cast<unsigned char>(letter)); }
   template <class T>
   void put(const T& value) {
     if constexpr (std::is_same_v<T, double>) {
@@ -84,6 +86,7 @@ class WordWriter {
   void put(const std::deque<T>& values) {
     put_all(values);
   }
+  void put(const std::string& text) { put_all(text); }
   template <class T>
   void put(const std::optional<T>& value) {
     put(value.has_value());
@@ -124,6 +127,11 @@ class WordReader {
     left_ = left_.subspan(1);
     return word;
   }
+  void get(char& letter) {
+    const std::uint64_t word = next();
+    if (word > 0xff) throw WordsError("a number is out of range");
+    letter = static_cast<char>(word);
+  }
   template <class T>
   void get(T& value) {
     if constexpr (std::is_same_v<T, double>) {
@@ -146,6 +154,7 @@ class WordReader {
   void get(std::deque<T>& values) {
     get_all(values);
   }
+  void get(std::string& text) { get_all(text); }
   template <class T>
   void get(std::optional<T>& value) {
     bool any = false;

@@ -56,7 +56,7 @@ class DriverInputTest : public ProgramTest {
     Words all{"run", "--force", "-q", "--out", "r"};
     all.insert(all.end(), words.begin(), words.end());
     EXPECT_EQ(run(all), 0) << err();
-    return read_state((folder_ / "r/final.csv").string());
+    return read_state((folder_ / "r/final.csv").string()).state;
   }
   std::string csv_, listing_;
 };
@@ -152,7 +152,7 @@ TEST_F(DriverInputTest, PipesAreReadOnce) {
        {"run pipe --out c", "show pipe", "advise pipe --error 1e-2", "stability pipe --predict"}) {
     EXPECT_EQ(run_with("ball.toml", words), 0) << words << err();
   }
-  write("paper.toml", "[[wall]]\n[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n");
+  write("paper.toml", "[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n");
   EXPECT_EQ(run_with("paper.toml", "verify pipe --quick"), 0) << err();
 }
 

@@ -20,8 +20,7 @@ class DriverOutputTest : public ProgramTest {
   void SetUp() override {
     ProgramTest::SetUp();
     std::ofstream(folder_ / "ball.toml") << ball;
-    std::ofstream(folder_ / "paper.toml")
-        << "[[wall]]\n[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n";
+    std::ofstream(folder_ / "paper.toml") << "[time]\nend = 1e-4\n[output]\nmonitor_every = 1e-4\n";
   }
   // A stand-in for /dev/null or /dev/full in the test's folder; false if none can be made there.
   [[nodiscard]] bool make_node(const char* name, unsigned minor) const {

@@ -13,7 +13,7 @@ class DriverRunTest : public ProgramTest {
  protected:
   // The last state of a run's directory.
   [[nodiscard]] State state_in(const fs::path& directory) const {
-    return read_state((folder_ / directory / "final.csv").string());
+    return read_state((folder_ / directory / "final.csv").string()).state;
   }
 };
 

@@ -22,9 +22,9 @@ class DriverStabilityTest : public ProgramTest {
   }
   int run(const Words& words) { return finish(start(words)); }
   // Runs until so many rows are there, then sends the signal. The exit code as finish() gives it.
-  int run_until(const Words& words, const fs::path& part, std::ptrdiff_t rows, int signal) {
+  int run_until(const Words& words, const fs::path& journal, std::ptrdiff_t rows, int signal) {
     const pid_t child = start(words);
-    for (int wait = 0; wait < 6000 && lines(contents(folder_ / part / "rows.csv")) < rows; ++wait) {
+    for (int wait = 0; wait < 6000 && lines(contents(folder_ / journal)) <= rows; ++wait) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     kill(child, signal);
@@ -50,8 +50,7 @@ TEST_F(DriverStabilityTest, WritesItsDirectory) {
   for (const char* name : {"origin.json", "scene.toml", "table.txt"}) {
     EXPECT_TRUE(fs::exists(at / name)) << name;
   }
-  EXPECT_FALSE(fs::exists(at / "rows.csv"));
-  EXPECT_FALSE(fs::exists(folder_ / "runs/example-2-stability.part"));
+  EXPECT_EQ(names("runs"), Words{"example-2-stability"});
   EXPECT_NE(out().find(contents(at / "table.txt")), std::string::npos);
   EXPECT_NE(out().find("more than 50 times"), std::string::npos) << out();
   EXPECT_EQ(out().find("DEPENDS"), std::string::npos) << out();
@@ -83,13 +82,14 @@ TEST_F(DriverStabilityTest, SameForAnyThreadsAndAfterAnyStop) {
   Words one = many("one");
   one.insert(one.end(), {"--threads", "1"});
   EXPECT_EQ(run(one), 0) << err();
-  EXPECT_EQ(run_until(many("stopped"), "stopped.part", 16, SIGINT), 130) << err();
+  EXPECT_EQ(run_until(many("stopped"), "stopped.journal", 16, SIGINT), 130) << err();
   EXPECT_NE(err().find("goes on"), std::string::npos) << err();
-  EXPECT_EQ(run_until(many("stopped"), "stopped.part", 32, SIGKILL), 1000 + SIGKILL);
+  EXPECT_EQ(run_until(many("stopped"), "stopped.journal", 32, SIGKILL), 1000 + SIGKILL);
   EXPECT_FALSE(fs::exists(folder_ / "stopped"));
   // Killed in the middle of a row.
-  std::ofstream(folder_ / "stopped.part/rows.csv", std::ios::app) << "leapfrog,flight,dt,99";
-  EXPECT_EQ(run(many("stopped")), 0) << err();
+  std::ofstream(folder_ / "stopped.journal", std::ios::app) << "[\"leapfrog,flight,dt,99";
+  EXPECT_EQ(finish(ProgramTest::start({"resume", "stopped"})), 0) << err();
+  EXPECT_FALSE(fs::exists(folder_ / "stopped.journal"));
   EXPECT_NE(err().find("going on"), std::string::npos) << err();
   const std::string whole = without_seconds(folder_ / "whole/edge.csv");
   EXPECT_GT(lines(whole), 80U);
@@ -98,7 +98,7 @@ TEST_F(DriverStabilityTest, SameForAnyThreadsAndAfterAnyStop) {
 }
 
 TEST_F(DriverStabilityTest, KeepsAStoppedSweepFromOtherArguments) {
-  EXPECT_EQ(run_until(many("s"), "s.part", 16, SIGKILL), 1000 + SIGKILL);
+  EXPECT_EQ(run_until(many("s"), "s.journal", 16, SIGKILL), 1000 + SIGKILL);
   Words other = many("s");
   other[2] = "2";
   EXPECT_EQ(run(other), 2);

@@ -235,7 +235,7 @@ TEST_F(DriverStepTest, InstabilityIsNoMatterOfTheMonitor) {
               0)
         << every << "\n"
         << err();
-    const State found = read_state((folder_ / "r/final.csv").string());
+    const State found = read_state((folder_ / "r/final.csv").string()).state;
     if (first.size() == 0) first = found;
     EXPECT_TRUE(same_state(found, first)) << every;
   }

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from scripts_folder import SCRIPTS, STUDIES, has_numpy
+from scripts_folder import SCRIPTS, STUDIES, has_numpy, run_here
 
 from studies import bench_compare
 
@@ -127,8 +127,7 @@ class LargeBalls(unittest.TestCase):
         return path
 
     def run_script(self, path):
-        done = subprocess.run([STUDIES / "large_balls.py", path, self.folder], capture_output=True, text=True,
-                              check=False)
+        done = run_here(STUDIES / "large_balls.py", path, self.folder)
         return done.returncode, done.stderr
 
     def test_table_and_pictures(self):
@@ -184,7 +183,7 @@ class Slim(unittest.TestCase):
         self.path.write_text(json.dumps({"context": context, "benchmarks": runs}, indent=2))
 
     def run_script(self, name, *words):
-        return subprocess.run([STUDIES / name, *words], capture_output=True, text=True, check=False)
+        return run_here(STUDIES / name, *words)
 
     def test_what_is_gone_goes_and_is_told(self):
         self.write("2026-11-27T16:04:22+00:00")

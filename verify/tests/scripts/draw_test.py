@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from scripts_folder import SCRIPTS, has_numpy
+from scripts_folder import SCRIPTS, has_numpy, run_here
 
 
 @unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
@@ -21,7 +21,7 @@ class Draw(unittest.TestCase):
                        check=True)
 
     def draw(self, *words):
-        return subprocess.run([SCRIPTS / "draw.py", *words], capture_output=True, text=True, check=False)
+        return run_here(SCRIPTS / "draw.py", *words)
 
     def picture_of(self, *words):
         self.run_scene(*words)

@@ -2,12 +2,12 @@
 """The scripts that draw and judge rows of bounce accuracy, on made-up ones: accuracy.py and contact.py."""
 import json
 import math
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from scripts_folder import STUDIES, has_numpy
+from scripts_folder import STUDIES, has_numpy, run_here
 
 
 @unittest.skipUnless(has_numpy(), "no numpy (apt-get install python3-numpy)")
@@ -22,6 +22,17 @@ class Contact(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
+        # Pictures take most of the time; two tests have real ones.
+        self.no_picture = mock.patch("pictures.drawing.save", self.save)
+        self.no_picture.start()
+        self.addCleanup(mock.patch.stopall)
+
+    @staticmethod
+    def save(figure, path, dpi=None):
+        from pictures.drawing import plt
+
+        plt.close(figure)
+        path.write_bytes(b"a picture")
 
     def row(self, method, contact, step, error, seconds=1.0, note=""):
         return [method, contact, str(step), "", "1", "1", "ring", str(seconds), "1e-9", *[str(error)] * 6, "1e-9",
@@ -75,8 +86,7 @@ class Contact(unittest.TestCase):
                 {"growth": growth, "fixed": {"contacts": 7}, "origin": {"commit": commit}}))
 
     def run_script(self, name, *words):
-        return subprocess.run([STUDIES / name, "--runs", self.folder / "runs", "--out", self.folder / "out", *words],
-                              capture_output=True, text=True, check=False)
+        return run_here(STUDIES / name, "--runs", self.folder / "runs", "--out", self.folder / "out", *words)
 
     def contacts(self, rows, *more):
         """The text of contact.md."""
@@ -129,6 +139,7 @@ class Contact(unittest.TestCase):
             self.assertEqual(list((self.folder / "out").iterdir()), [])
 
     def test_the_page_is_made_again_of_what_was_kept(self):
+        self.no_picture.stop()
         text = self.contacts(self.rows())
         kept = self.folder / "out" / "reference"
         for scene in ("a", "example-3"):
@@ -180,6 +191,7 @@ class Contact(unittest.TestCase):
         self.assertEqual(names, {"listing", "leapfrog"})
 
     def test_a_picture_for_readme(self):
+        self.no_picture.stop()
         self.study("accuracy-example-2", self.rows())
         self.assertEqual(self.run_script("accuracy.py", "example-2").returncode, 0)
         headline = self.folder / "out" / "accuracy" / "headline.png"

@@ -1,0 +1,39 @@
+// Checkpoints that bounce resume reads. A checksum keeps chance away from what is behind it, so it is
+// made right here: what an input ends with is taken for its number of words and its checksum.
+#include <cstring>
+
+#include "driver/run/checkpoint.hpp"
+#include "driver/run/run_gauges.hpp"
+#include "verify/tests/fuzz/fuzz_target.hpp"
+#include "verify/watch/margin.hpp"
+
+namespace {
+
+// Reads what a run would, of a ball without bonds.
+void read_numbers(const bounce::Checkpoint& checkpoint) {
+  static const bounce::Method* const method = bounce::find_method("listing");
+  bounce::Problem problem;
+  problem.method = method;
+  problem.step = 1.0;
+  bounce::RunGauges gauges(problem, 0, 1.0, true);
+  bounce::MarginGauge margin(problem);
+  bounce::Snapshot now, good;
+  try {
+    bounce::WordReader words(checkpoint.words);
+    words(now, good, gauges, margin);
+    words.finish();
+  } catch (const bounce::WordsError&) {  // named by bounce resume
+  }
+}
+
+void read(std::string bytes) {
+  bytes.resize(bytes.size() / 8 * 8);
+  bounce::seal_checkpoint(bytes);
+  read_numbers(bounce::read_checkpoint(bytes, "input", true));
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return bounce::fuzz(data, size, read);
+}
