@@ -26,7 +26,7 @@ void read_numbers(const bounce::Checkpoint& checkpoint) {
   }
 }
 
-void read(std::string bytes) {
+void read_sealed(std::string bytes) {
   bytes.resize(bytes.size() / 8 * 8);
   bounce::seal_checkpoint(bytes);
   read_numbers(bounce::read_checkpoint(bytes, "input", true));
@@ -35,5 +35,5 @@ void read(std::string bytes) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return bounce::fuzz(data, size, read);
+  return bounce::fuzz(data, size, read_sealed);
 }
