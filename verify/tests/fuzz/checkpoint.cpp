@@ -34,7 +34,7 @@ void read_numbers(const bounce::Checkpoint& checkpoint) {
   }
 }
 
-void read_bytes_of(std::string bytes) {
+void read_sealed(std::string bytes) {
   bytes.resize(bytes.size() / 8 * 8);
   bounce::seal_checkpoint(bytes);
   read_numbers(bounce::read_checkpoint(bytes, "input", true));
@@ -43,5 +43,5 @@ void read_bytes_of(std::string bytes) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return bounce::fuzz(data, size, read_bytes_of);
+  return bounce::fuzz(data, size, read_sealed);
 }
