@@ -2,7 +2,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,12 +15,15 @@
 
 #include "driver/accuracy/accuracy_study.hpp"
 #include "driver/accuracy/accuracy_table.hpp"
+#include "driver/accuracy/reference_journal.hpp"
 #include "driver/scene/scene_file.hpp"
+#include "driver/scene/scene_keys.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
@@ -63,17 +71,19 @@ CourseRecord seen(const Problem& problem, const ReferencePath& path, std::size_t
   return gauge.result(path.bounce);
 }
 
-Reference make_reference(const Study& study) {
+Reference make_reference(const Study& study, Journal& journal) {
   const Problem problem =
       problem_of(study.scene, study.initial, {"listing", Contact::resolved, 1}, study.sampling);
   std::vector<double> times;
   for (std::int64_t s = 0; s <= study.sampling.samples; ++s) {
     times.push_back(study.sampling.every * static_cast<double>(s));
   }
-  const DisturbedPair paths =
-      solve_disturbed(problem, times, {}, rounding_disturbance(problem), [] {
+  const DisturbedPair paths = solve_disturbed(
+      problem, times, {}, rounding_disturbance(problem),
+      [] {
         if (interrupted()) throw Stopped();
-      });
+      },
+      kept_in(journal));
   const ReferencePair& pair = paths.pair;
   const std::size_t last = pair.last_before_contact();
   Reference reference;
@@ -95,26 +105,47 @@ Json origin_json(const Options& options, const Study& study, const std::string& 
           {"cores", origin.cores},         {"date", origin.date}};
 }
 
+std::string key_of(const Setting& setting) {
+  return fmt::format("{} {} {}", setting.method, word_of(setting.contact), setting.steps_a_sample);
+}
+
+// All settings; those that the journal has are not run.
 std::optional<std::vector<AccuracyRow>> run_all(const Study& study, const Reference& reference,
-                                                int threads) {
+                                                int threads, Journal& journal) {
   double work = 0.0, done = 0.0;
   const auto work_of = [&](const Setting& s) {
     return static_cast<double>(s.steps_a_sample * find_method(s.method)->evaluations);
   };
-  for (const Setting& setting : study.settings) work += work_of(setting);
-  CaseProgress progress(::isatty(STDERR_FILENO) != 0, study.settings.size(), work);
+  std::map<std::string, AccuracyRow> rows;
+  std::vector<Setting> missing;
+  for (const Setting& setting : study.settings) {
+    if (auto row = journal.find<AccuracyRow>(key_of(setting))) {
+      rows[key_of(setting)] = std::move(*row);
+      continue;
+    }
+    missing.push_back(setting);
+    work += work_of(setting);
+  }
+  CaseProgress progress(::isatty(STDERR_FILENO) != 0, missing.size(), work);
   std::size_t ended = 0;
-  return measure_accuracy(study.scene, study.initial, study.settings, study.sampling,
-                          reference.record, threads, [&](std::size_t i) {
-                            done += work_of(study.settings[i]);
-                            progress.update(++ended, done);
-                            return !interrupted();
-                          });
+  const auto measured =
+      measure_accuracy(study.scene, study.initial, missing, study.sampling, reference.record,
+                       threads, [&](std::size_t i, const AccuracyRow& row) {
+                         journal.add(key_of(row.setting), row);
+                         done += work_of(missing[i]);
+                         progress.update(++ended, done);
+                         return !interrupted();
+                       });
+  if (!measured) return std::nullopt;
+  for (const AccuracyRow& row : *measured) rows[key_of(row.setting)] = row;
+  std::vector<AccuracyRow> all;
+  for (const Setting& setting : study.settings) all.push_back(rows.at(key_of(setting)));
+  return all;
 }
 
 // The baselines, one course at a time: they are timed as they run.
 void add_baselines(const StudyRequest& request, const Study& study, const Reference& reference,
-                   std::vector<TimedRow>& timed) {
+                   Journal& journal, std::vector<TimedRow>& timed) {
   BaselineSweep sweep;
   if (request.quick) sweep = {2, 10.0, 0.1};
   for (const Baseline& baseline : baselines()) {
@@ -123,34 +154,54 @@ void add_baselines(const StudyRequest& request, const Study& study, const Refere
     const auto tick = [] {
       if (interrupted()) throw Stopped();
     };
-    for (BaselineRow& each : measure_baseline(baseline, study.scene, study.initial, study.sampling,
-                                              reference.record, sweep, tick)) {
-      timed.push_back({std::move(each.row), each.seconds});
+    const std::string key = fmt::format("{} {}", baseline.name, static_cast<int>(baseline.contact));
+    auto rows = journal.find<std::vector<BaselineRow>>(key);
+    if (!rows) {
+      rows = measure_baseline(baseline, study.scene, study.initial, study.sampling,
+                              reference.record, sweep, tick);
+      journal.add(key, *rows);
     }
+    for (BaselineRow& each : *rows) timed.push_back({std::move(each.row), each.seconds});
   }
 }
 
-int interrupted_exit() {
-  print_err("bounce: interrupted; nothing was written\n");
-  return interrupt_exit_code();
+// What each case depends on beside its name.
+std::string task_of(const Study& study, bool quick) {
+  const Json json{
+      {"scene", to_toml(study.scene)},
+      {"initial",
+       study.initial ? Json(fmt::format("{:016x}", state_hash(*study.initial))) : Json()},
+      {"every", study.sampling.every},
+      {"samples", study.sampling.samples},
+      {"quick", quick}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-int accuracy(const Options& options, const std::string& command_line) {
+int accuracy(const Options& options, const CommandContext& context) {
   check_threads(options.threads);
   choose_vector("auto");  // throws on a processor that BondForces is not compiled for
   catch_interrupts();
   RunDirectory directory(options.directory(), options.force, "accuracy.csv");
   const Study study = make_study(options.study);
+  Journal journal(options.directory(), context.asked, task_of(study, options.study.quick),
+                  options.force);
+  // The reference's three solutions, the settings, the baselines.
+  const std::size_t cases = 3 + study.settings.size() + baselines().size();
+  const auto stopped = [&] {
+    say_stopped(journal.size(), cases, journal, options.directory());
+    return interrupt_exit_code();
+  };
+  say_going_on(journal.size(), cases);
   Reference reference;
   std::optional<std::vector<AccuracyRow>> rows;
   try {
-    reference = make_reference(study);
-    rows = run_all(study, reference, options.threads);
+    reference = make_reference(study, journal);
+    rows = run_all(study, reference, options.threads, journal);
   } catch (const Stopped&) {
   } catch (const ReferenceError& error) {
     throw InputError(fmt::format("this scene has no reference: {}", error.what()));
   }
-  if (!rows) return interrupted_exit();
+  if (!rows) return stopped();
   const CourseTimes times = time_courses(study.scene, study.initial, study.sampling, *rows, true);
   std::vector<TimedRow> timed;
   PapersProgram papers;
@@ -161,9 +212,9 @@ int accuracy(const Options& options, const std::string& command_line) {
     timed.push_back({row, times.rows[i]});
   }
   try {
-    add_baselines(options.study, study, reference, timed);
+    add_baselines(options.study, study, reference, journal, timed);
   } catch (const Stopped&) {
-    return interrupted_exit();
+    return stopped();
   }
   std::string table = accuracy_table(timed, papers, reference.record, reference.bar);
   for (const std::string& line : study.left_out) table += fmt::format("left out: {}\n", line);
@@ -171,7 +222,7 @@ int accuracy(const Options& options, const std::string& command_line) {
   write_file_whole(directory.path() / "accuracy.csv",
                    accuracy_csv(timed, reference.record, reference.bar));
   write_file_whole(directory.path() / "table.txt", table);
-  Json origin = origin_json(options, study, command_line);
+  Json origin = origin_json(options, study, context.command_line);
   origin["oracle_seconds"] = papers.seconds;
   if (const auto best = cheapest_as_good(timed, papers, reference.bar)) {
     const AccuracyRow& row = timed[*best].row;
@@ -182,6 +233,7 @@ int accuracy(const Options& options, const std::string& command_line) {
   }
   write_file_whole(directory.path() / "origin.json", origin.dump(2) + "\n");
   directory.publish();
+  journal.finish();
   print_out("{}\nfiles: {}\n", table, options.directory().string());
   return 0;
 }
@@ -225,8 +277,7 @@ void add_accuracy_command(CLI::App& program, CommandContext& context) {
       "Examples:\n"
       "  bounce accuracy example-1 --quick\n"
       "  bounce accuracy example-2 --methods listing,leapfrog --set time.end=9\n");
-  command->callback(
-      [options, &context] { context.exit_code = accuracy(*options, context.command_line); });
+  command->callback([options, &context] { context.exit_code = accuracy(*options, context); });
 }
 
 }  // namespace bounce

@@ -13,6 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "driver/accuracy/reference_journal.hpp"
 #include "driver/accuracy/reference_record.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
@@ -22,6 +25,7 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
+#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 #include "driver/world/progress.hpp"
 #include "driver/world/run_directory.hpp"
@@ -79,7 +83,7 @@ double shortest_bond(const Problem& problem) {
 }
 
 DisturbedPair solve(const Problem& problem, const std::vector<double>& times,
-                    const ReferenceSettings& settings, double disturbance) {
+                    const ReferenceSettings& settings, double disturbance, Journal& journal) {
   std::atomic<std::size_t> done{0};
   const auto main_thread = std::this_thread::get_id();
   const std::size_t all = 3 * times.size();
@@ -90,7 +94,7 @@ DisturbedPair solve(const Problem& problem, const std::vector<double>& times,
     if (std::this_thread::get_id() == main_thread) progress.update(now, static_cast<double>(now));
   };
   try {
-    return solve_disturbed(problem, times, settings, disturbance, tick);
+    return solve_disturbed(problem, times, settings, disturbance, tick, kept_in(journal));
   } catch (const ReferenceError& error) {
     throw InputError(fmt::format("this scene has no reference: {}", error.what()));
   } catch (const std::invalid_argument& error) {
@@ -111,7 +115,20 @@ void write_files(const fs::path& folder, const ReferenceRecord& record) {
                    [&](OutputFile& file) { write_contacts_csv(file, record); });
 }
 
-void reference(const Options& options, const std::string& command_line) {
+// What the solutions depend on.
+std::string task_of(const Scene& scene, const Problem& problem, const std::vector<double>& times,
+                    const ReferenceSettings& settings, double disturbance) {
+  const nlohmann::ordered_json json{{"scene", to_toml(scene)},
+                                    {"start", fmt::format("{:016x}", state_hash(problem.initial))},
+                                    {"times", times.size()},
+                                    {"last", times.back()},
+                                    {"tolerance", settings.adaptive.tolerance},
+                                    {"step", settings.fixed.step},
+                                    {"disturbance", disturbance}};
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+int reference(const Options& options, const CommandContext& context) {
   SceneFile file = SceneFile::find(options.scene);
   for (const std::string& setting : options.settings) file.set(setting);
   if (options.end) file.end_at(*options.end, "--t-end");
@@ -141,14 +158,26 @@ void reference(const Options& options, const std::string& command_line) {
     throw InputError(error.what());
   }
   const double disturbance = options.disturbance * shortest_bond(problem);
-  const ReferenceRecord record =
-      make_reference_record(problem, solve(problem, times, settings, disturbance), disturbance);
-  write_files(directory.path(), record);
+  Journal journal(options.directory(), context.asked,
+                  task_of(scene, problem, times, settings, disturbance), options.force);
+  constexpr std::size_t solutions = 3;
+  say_going_on(journal.size(), solutions);
+  ReferenceRecord record;
+  try {
+    record = make_reference_record(problem, solve(problem, times, settings, disturbance, journal),
+                                   disturbance);
+  } catch (const Interrupted&) {
+    say_stopped(journal.size(), solutions, journal, options.directory());
+    return interrupt_exit_code();
+  }
   write_file_whole(directory.path() / "scene.toml", to_toml(scene));
+  write_files(directory.path(), record);
   write_file_whole(directory.path() / marker, reference_json(record, scene, settings, options.every,
-                                                             options.scene, command_line));
+                                                             options.scene, context.command_line));
   directory.publish();
+  journal.finish();
   print_out("{}\nfiles: {}\n", reference_table(record, settings), options.directory().string());
+  return 0;
 }
 
 }  // namespace
@@ -194,14 +223,7 @@ void add_reference_command(CLI::App& program, CommandContext& context) {
       "Examples:\n"
       "  bounce reference example-2                 (some minutes on two cores)\n"
       "  bounce reference example-2 --t-end 9 --tolerance 1e-12 --step 1e-4 --out quick\n");
-  command->callback([options, &context] {
-    try {
-      reference(*options, context.command_line);
-    } catch (const Interrupted&) {
-      print_err("bounce: interrupted; nothing is kept\n");
-      context.exit_code = interrupt_exit_code();
-    }
-  });
+  command->callback([options, &context] { context.exit_code = reference(*options, context); });
 }
 
 }  // namespace bounce

@@ -126,6 +126,7 @@ void Journal::add_line(const std::string& key, const std::vector<std::uint64_t>&
   const std::lock_guard lock(adding_);
   file_->write(dump({key, hex(words), checksum(key, words)}) + "\n");
   file_->flush();
+  ++added_;
   const auto now = std::chrono::steady_clock::now();
   if (now - on_disk_ < std::chrono::seconds(1)) return;  // a disk takes its time
   file_->sync();

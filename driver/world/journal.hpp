@@ -38,8 +38,8 @@ class Journal {
   Journal(const std::filesystem::path& output, const Invocation& asked, const std::string& task,
           bool replace);
 
-  /// Cases found.
-  [[nodiscard]] std::size_t size() const { return found_.size(); }
+  /// Cases there are, found and added.
+  [[nodiscard]] std::size_t size() const { return found_.size() + added_; }
   /// The result of a case, if it is there; T has a serialize(), or is what words.hpp knows.
   template <class T>
   std::optional<T> find(const std::string& key) const {
@@ -77,6 +77,7 @@ class Journal {
 
   std::filesystem::path path_;
   std::map<std::string, std::vector<std::uint64_t>> found_;
+  std::size_t added_ = 0;
   std::mutex adding_;
   std::optional<OutputFile> file_;
   std::chrono::steady_clock::time_point on_disk_ = std::chrono::steady_clock::now();

@@ -29,6 +29,11 @@ struct ContactEvent {
   std::size_t particle = 0;  ///< from 0
   std::size_t wall = 0;      ///< from 0
   ContactKind kind = ContactKind::lands;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(time, particle, wall, kind);
+  }
 };
 
 /// What happened in a motion that was followed.
@@ -37,6 +42,11 @@ struct ContactRun {
   std::int64_t steps = 0;            ///< taken, those that were cut at an event too
   std::int64_t evaluations = 0;      ///< of the force, with those of steps not taken
   double height_cut = 0.0;           ///< a bounce lower than this counts as rest, cm
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(events, steps, evaluations, height_cut);
+  }
 };
 
 /// Follows a motion step by step as it is solved. States are rounded to double.

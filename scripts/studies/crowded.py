@@ -26,7 +26,7 @@ from studies.study import ROOT
 BOUNCE = ROOT / "build/release/bounce"
 ALLOWED = 2.0  # times one thread's time
 CASES = (("mirror", "example-2"), ("ring", "example-2"), ("annulus", "example-2"), ("csr", "example-2"),
-         ("annulus", "annulus"), ("csr", "annulus"), ("ring", "large-ball"))
+         ("annulus", "annulus"), ("csr", "annulus"))
 ASKED = (1, 16, 256)
 
 

@@ -125,7 +125,7 @@ std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>&
 std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const Scene& scene, const std::optional<State>& initial, std::span<const Setting> settings,
     const Sampling& sampling, const CourseRecord& reference, int threads,
-    const std::function<bool(std::size_t)>& done) {
+    const std::function<bool(std::size_t, const AccuracyRow&)>& done) {
   // The longest first, so that none is left over for one thread at the end.
   std::vector<std::size_t> order(settings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -142,7 +142,7 @@ std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const std::size_t i = order[k];
     rows[i] = run(scene, initial, settings[i], sampling, reference);
     const std::lock_guard lock(one_at_a_time);
-    if (!done(i)) go_on = false;
+    if (!done(i, rows[i])) go_on = false;
   });
   if (!go_on) return std::nullopt;
   return rows;

@@ -28,6 +28,11 @@ struct Setting {
   std::int64_t steps_a_sample = 1;
 
   bool operator==(const Setting&) const = default;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(method, contact, steps_a_sample);
+  }
 };
 
 /// When a course is looked at.
@@ -59,6 +64,11 @@ struct AccuracyRow {
   std::string note;  ///< of a baseline that was not finished: why
   CourseRecord record;
   CourseErrors errors;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(setting, baseline, tolerance, step, steps, evaluations, kernel, note, record, errors);
+  }
 };
 
 /// The scene by a setting, whatever the scene itself says of method, step, contact and output.
@@ -90,11 +100,11 @@ std::vector<Setting> settings_of(const Scene& scene, const std::optional<State>&
 
 /// Runs all settings; a row each, in their order, whatever the number of threads (0: one a core).
 /// A course whose state is not finite has infinite errors; so have all if the reference has no
-/// samples (they can then be references themselves). `done(i)` is called as each ends, never twice
-/// at once; if it returns false, the rest is left out and nothing is returned.
+/// samples (they can then be references themselves). `done` is called as each ends, with its place and
+/// its row, never twice at once; if it returns false, the rest is left out and nothing is returned.
 std::optional<std::vector<AccuracyRow>> measure_accuracy(
     const Scene& scene, const std::optional<State>& initial, std::span<const Setting> settings,
     const Sampling& sampling, const CourseRecord& reference, int threads,
-    const std::function<bool(std::size_t)>& done);
+    const std::function<bool(std::size_t, const AccuracyRow&)>& done);
 
 }  // namespace bounce

@@ -162,8 +162,9 @@ class Pilot {
                                                             const Sampling& sampling,
                                                             const std::optional<State>& start) {
     courses_ += all.size();
-    return measure_accuracy(request_.scene, start, all, sampling, reference, request_.threads,
-                            [this](std::size_t) { return !(request_.stop && request_.stop()); });
+    return measure_accuracy(
+        request_.scene, start, all, sampling, reference, request_.threads,
+        [this](std::size_t, const AccuracyRow&) { return !(request_.stop && request_.stop()); });
   }
   // The pilot's reference (0), and the course that says how well it is known (1): by the next best
   // method, as resolved contact leaves errors that do not fall as its order says; with located

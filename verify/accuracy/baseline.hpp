@@ -55,6 +55,11 @@ struct BaselineSweep {
 struct BaselineRow {
   AccuracyRow row;
   double seconds = 0.0;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(row, seconds);
+  }
 };
 
 /// Sweeps one baseline, one course after another. Steps are whole parts of the sampling interval,

@@ -25,6 +25,11 @@ struct Observables {
   double contact = height;     ///< time of all impacts, s
   double lost = height;        ///< energy at the start less at the end, erg
   double flattening = height;  ///< greatest
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(height, speed, rebound, contact, lost, flattening);
+  }
 };
 
 /// A member of Observables by name.
@@ -51,6 +56,11 @@ struct CourseRecord {
   State before;                  ///< at the last of them
   double lowest_time = 0.0;      ///< when the centre was lowest, s
   bool finite = true;            ///< false: a state was not; the rest is then of no worth
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(observables, found_to, energy, free_samples, before, lowest_time, finite);
+  }
 };
 
 /// Sees the samples of one course in the order of time.
@@ -78,6 +88,11 @@ struct CourseErrors {
   double position = 0.0;  ///< largest of a particle, at the other's last sample before contact, cm
   double energy_free = 0.0;  ///< largest change of energy since the start, until then, erg
   double energy = 0.0;       ///< largest difference of energy from the other's, at any sample, erg
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(observables, position, energy_free, energy);
+  }
 };
 /// All infinite if `course` is not finite. Both must have seen the same times.
 CourseErrors errors_of(const CourseRecord& course, const CourseRecord& reference);

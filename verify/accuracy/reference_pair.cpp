@@ -7,6 +7,7 @@
 #include <future>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "verify/figures/contact_gauge.hpp"
 
@@ -20,11 +21,16 @@ struct Abandoned {};
 // and its exception is the one that comes out.
 class Together {
  public:
-  explicit Together(const ReferenceTick& tick) : tick_(tick) {}
+  Together(const ReferenceTick& tick, const ReferenceKeeper& keeper)
+      : tick_(tick), keeper_(keeper) {}
 
   template <class Solve>
-  ReferencePath follow(const Problem& problem, std::size_t outputs, const Solve& solve) {
+  ReferencePath follow(const std::string& name, const Problem& problem, std::size_t outputs,
+                       const Solve& solve) {
     ReferencePath path;
+    if (keeper_.find) {
+      if (auto kept = keeper_.find(name)) return std::move(*kept);
+    }
     ContactGauge gauge(problem);
     path.states.reserve(outputs);
     try {
@@ -35,6 +41,7 @@ class Together {
       };
       path.run = solve(visit, &gauge);
       path.bounce = gauge.result();
+      if (keeper_.keep) keeper_.keep(name, path);
     } catch (const Abandoned&) {
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -49,6 +56,7 @@ class Together {
 
  private:
   const ReferenceTick& tick_;
+  const ReferenceKeeper& keeper_;
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -58,10 +66,10 @@ class Together {
 template <class More>
 ReferencePair solve_pair(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick,
-                         const More& more) {
-  Together together(tick);
+                         const ReferenceKeeper& keeper, const More& more) {
+  Together together(tick, keeper);
   auto fixed = std::async(std::launch::async, [&] {
-    return together.follow(problem, times.size(),
+    return together.follow("fixed", problem, times.size(),
                            [&](const ReferenceVisitor& visit, ContactWatch* watch) {
                              return solve_fixed(problem, times, settings.fixed, visit, watch);
                            });
@@ -69,7 +77,7 @@ ReferencePair solve_pair(const Problem& problem, std::span<const double> times,
   ReferencePair pair;
   pair.times.assign(times.begin(), times.end());
   pair.adaptive = together.follow(
-      problem, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+      "adaptive", problem, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
         return solve_adaptive(problem, times, settings.adaptive, visit, watch);
       });
   more(together);
@@ -97,18 +105,18 @@ std::size_t ReferencePair::last_before_contact() const {
 
 ReferencePair solve_both(const Problem& problem, std::span<const double> times,
                          const ReferenceSettings& settings, const ReferenceTick& tick) {
-  return solve_pair(problem, times, settings, tick, [](Together&) {});
+  return solve_pair(problem, times, settings, tick, {}, [](Together&) {});
 }
 
 DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> times,
                               const ReferenceSettings& settings, double disturbance,
-                              const ReferenceTick& tick) {
+                              const ReferenceTick& tick, const ReferenceKeeper& keeper) {
   DisturbedPair both;
-  both.pair = solve_pair(problem, times, settings, tick, [&](Together& together) {
+  both.pair = solve_pair(problem, times, settings, tick, keeper, [&](Together& together) {
     Problem moved = problem;
     moved.initial = disturbed_start(problem, disturbance);
     both.disturbed = together.follow(
-        moved, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
+        "disturbed", moved, times.size(), [&](const ReferenceVisitor& visit, ContactWatch* watch) {
           return solve_adaptive(moved, times, settings.adaptive, visit, watch);
         });
   });

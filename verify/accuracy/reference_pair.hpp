@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "verify/accuracy/reference_solution.hpp"
@@ -16,6 +18,11 @@ struct ReferencePath {
   std::vector<State> states;
   ReferenceRun run;
   Bounce bounce;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(states, run, bounce);
+  }
 };
 
 struct ReferencePair {
@@ -47,9 +54,15 @@ struct DisturbedPair {
   ReferencePair pair;
   ReferencePath disturbed;
 };
+/// Where solutions are kept that were found before, by the names "fixed", "adaptive", "disturbed";
+/// both may be called from several threads.
+struct ReferenceKeeper {
+  std::function<std::optional<ReferencePath>(const std::string& name)> find;
+  std::function<void(const std::string& name, const ReferencePath&)> keep;
+};
 DisturbedPair solve_disturbed(const Problem& problem, std::span<const double> times,
                               const ReferenceSettings& settings, double disturbance,
-                              const ReferenceTick& tick = {});
+                              const ReferenceTick& tick = {}, const ReferenceKeeper& keeper = {});
 
 /// Some roundings of the largest coordinate, cm: a disturbance as every step in double precision
 /// makes one. What comes of it at the end is what such a course can know at best.

@@ -35,6 +35,11 @@ namespace bounce {
 /// course is off the motion is another matter.)
 struct Figure {
   double value = 0.0, found_to = 0.0;
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(value, found_to);
+  }
 };
 
 struct Bounce {
@@ -49,6 +54,13 @@ struct Bounce {
   std::optional<Figure> greatest_flattening, greatest_flattening_time;  ///< 1, s
   std::optional<Figure> end_height, end_speed;                          ///< of the centre; cm, cm/s
   std::optional<Figure> energy_lost;  ///< total energy at the start less now, erg
+
+  template <class Words>
+  void serialize(Words& words) {
+    words(first_contact, last_contact, contact_time, lowest_centre, lowest_centre_time,
+          rebound_height, restitution, greatest_flattening, greatest_flattening_time, end_height,
+          end_speed, energy_lost);
+  }
 };
 
 /// A member of Bounce by name.

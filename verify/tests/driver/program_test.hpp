@@ -86,6 +86,8 @@ class ProgramTest : public testing::Test {
         const rlimit limit{memory_, memory_};
         if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(99);
       }
+      // However the test itself was started.
+      for (const int usual : {SIGINT, SIGHUP, SIGTERM}) signal(usual, SIG_DFL);
       for (const int ignored : ignored_) signal(ignored, SIG_IGN);
       dup2(stdout_ >= 0 ? stdout_ : open("stdout", flags, 0600), STDOUT_FILENO);
       dup2(open("stderr", flags, 0600), STDERR_FILENO);

@@ -27,8 +27,10 @@ class DriverResumeTest : public ProgramTest {
     EXPECT_EQ(names(a), names(b));
     for (const std::string& name : names(a)) {
       if (name == "run.json" || name == "checkpoint") continue;
-      EXPECT_TRUE(contents(folder_ / a / name) == contents(folder_ / b / name))
-          << b << "/" << name << " is not that of the run that was not stopped, " << a;
+      const std::string one = contents(folder_ / a / name), other = contents(folder_ / b / name);
+      EXPECT_TRUE(one == other) << b << "/" << name
+                                << " is not that of the run that was not stopped, " << a << "; "
+                                << where_they_differ(one, other);
     }
     for (const char* key : {"status", "steps", "state_hash"}) {
       EXPECT_EQ(entry(folder_ / a / "run.json", key), entry(folder_ / b / "run.json", key)) << key;

@@ -247,6 +247,14 @@ TEST(WallScenes, MeetTheirWallsAndAreOfAllKinds) {
   EXPECT_EQ(kernels_seen, (std::set<std::string>{"mirror", "ring", "annulus", "csr", "strict"}));
 }
 
+TEST(WallScenes, HoldForTheKernelsOfThisBuild) {
+  const std::vector<KernelUnderTest> all = kernels_under_test();
+  for (const auto& [name, scene] : wall_scenes()) {
+    const auto rows = check_equivalence(name, scene, wall_scene_steps, false, all);
+    EXPECT_TRUE(all_pass(rows)) << name << "\n" << print_failures(rows);
+  }
+}
+
 void take_ceilings_for_floors(Problem& problem) {
   for (Wall& wall : problem.walls) {
     if (wall.normal.x == 0.0) wall = {{0.0, 1.0}, std::abs(wall.offset), wall.alpha, wall.beta};

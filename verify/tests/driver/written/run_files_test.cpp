@@ -19,6 +19,7 @@
 #include "verify/tests/driver/file_contents.hpp"
 #include "verify/tests/driver/written/read_json.hpp"
 #include "verify/tests/driver/written/read_table.hpp"
+#include "verify/tests/same_state.hpp"
 
 namespace bounce {
 namespace {
@@ -127,10 +128,10 @@ TEST_F(RunFiles, LedgerCsvHasEachValueInItsColumn) {
   }
 }
 
-State made_up_state(std::size_t particles) {
+State made_up_state(std::size_t particles, double from = 0.0) {
   State state(particles);
   for (std::size_t i = 0; i < particles; ++i) {
-    const double k = 1.0 / 3.0 + static_cast<double>(i);  // all digits
+    const double k = from + 1.0 / 3.0 + static_cast<double>(i);  // all digits
     state.x[i] = k;
     state.y[i] = -100.0 - k;
     state.vx[i] = 1e-7 * (200.0 + k);
@@ -139,34 +140,42 @@ State made_up_state(std::size_t particles) {
   return state;
 }
 
-void expect_particle(const Row& row, const State& state, std::size_t i) {
-  const auto number = [&row](const char* name) {
-    return std::strtod(row.at(name).c_str(), nullptr);
+void expect_particle(const Row& row, const State& state, std::size_t i,
+                     const std::string& prefix = "") {
+  const auto number = [&](const char* name) {
+    return std::strtod(row.at(prefix + name).c_str(), nullptr);
   };
-  EXPECT_EQ(number("x"), state.x[i]) << i;
-  EXPECT_EQ(number("y"), state.y[i]) << i;
-  EXPECT_EQ(number("vx"), state.vx[i]) << i;
-  EXPECT_EQ(number("vy"), state.vy[i]) << i;
+  EXPECT_EQ(number("x"), state.x[i]) << prefix << i;
+  EXPECT_EQ(number("y"), state.y[i]) << prefix << i;
+  EXPECT_EQ(number("vx"), state.vx[i]) << prefix << i;
+  EXPECT_EQ(number("vy"), state.vy[i]) << prefix << i;
 }
 
+// With a state held over beside it, and without.
 TEST_F(RunFiles, StatesHaveEachParticlesNumbers) {
-  const State state = made_up_state(5);
-  {
-    OutputFile file(folder_ / "s");
-    write_state_csv(file, state);
-    file.close();
+  const State state = made_up_state(5), held = made_up_state(5, 1000.0);
+  for (const bool with_held : {false, true}) {
+    const fs::path path = folder_ / (with_held ? "h" : "s");
+    {
+      OutputFile file(path);
+      write_state_csv(file, state, with_held ? std::optional(held) : std::nullopt);
+      file.close();
+    }
+    const auto rows = read_table(contents(path));
+    ASSERT_EQ(rows.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+      EXPECT_EQ(rows[i].size(), with_held ? 9U : 5U);
+      EXPECT_EQ(rows[i].at("i"), std::to_string(i + 1));
+      expect_particle(rows[i], state, i);
+      if (with_held) expect_particle(rows[i], held, i, "held_");
+    }
+    const FiledState back = read_state(path.string());
+    EXPECT_TRUE(same_state(back.state, state));
+    ASSERT_EQ(back.held.has_value(), with_held);
+    if (with_held) {
+      EXPECT_TRUE(same_state(*back.held, held));
+    }
   }
-  const auto rows = read_table(contents(folder_ / "s"));
-  ASSERT_EQ(rows.size(), 5U);
-  for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(rows[i].at("i"), std::to_string(i + 1));
-    expect_particle(rows[i], state, i);
-  }
-  const State back = read_state((folder_ / "s").string()).state;
-  EXPECT_EQ(back.x, state.x);
-  EXPECT_EQ(back.y, state.y);
-  EXPECT_EQ(back.vx, state.vx);
-  EXPECT_EQ(back.vy, state.vy);
 }
 
 // The columns are those that the line of properties names.
