@@ -115,7 +115,7 @@ class Overlay:
             if not words or "cmake" in Path(words[0]).name:
                 continue  # a stand-in
             script = "python" in Path(words[0]).name
-            name = Path(words[1] if script else words[0]).stem
+            name = Path(words[1] if script else words[0]).name
             environment = dict(each.split("=", 1) for each in properties.get("ENVIRONMENT", []))
             found[name] = {"command": words[:2] if script else [words[0], "--gtest_fail_fast", "--gtest_brief=1"],
                            "label": label, "environment": environment, "target": None if script else name}
