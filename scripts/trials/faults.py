@@ -2,8 +2,8 @@
 """Do the tests see a fault? Small faults are put in one at a time, drawn by chance from --seed, and the tests that could
 see each are built and run, the quickest first, until one fails.
 
-  scripts/studies/faults.py --faults 80 --seed 1      goes on where it was stopped (Ctrl-C)
-  scripts/studies/faults.py --again                   those that nothing saw once more, with the tests of today
+  scripts/trials/faults.py --faults 80 --seed 1      goes on where it was stopped (Ctrl-C)
+  scripts/trials/faults.py --again                   those that nothing saw once more, with the tests of today
 
 All in an overlay, a git worktree of this commit in --work with a build of its own; the tree stays as it is. A fault
 that does not compile is drawn anew. Writes OUT/faults.csv after each fault, and OUT/faults.md; why a fault that nothing
@@ -26,9 +26,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from studies import fault_kinds, study
-from studies.fault_kinds import Fault
+from studies import study
 from studies.study import InputError
+from trials import fault_kinds
+from trials.fault_kinds import Fault
 
 EXPLAINED = Path(__file__).with_name("faults_explained.toml")
 COLUMNS = ("seed", "number", "file", "line", "kind", "before", "after", "seen_by", "seconds", "commit")
@@ -117,7 +118,9 @@ class Overlay:
             script = "python" in Path(words[0]).name
             name = Path(words[1] if script else words[0]).name
             environment = dict(each.split("=", 1) for each in properties.get("ENVIRONMENT", []))
-            found[name] = {"command": words[:2] if script else [words[0], "--gtest_fail_fast", "--gtest_brief=1"],
+            if any(word.startswith("--gtest_filter") for word in words):
+                words = [words[0], "--gtest_fail_fast", "--gtest_brief=1"]  # all its tests at once
+            found[name] = {"command": words,
                            "label": label, "environment": environment, "target": None if script else name}
         bounce = self.build / "bounce"
         found["verify --quick"] = {"command": [str(bounce), "verify", "--quick"], "label": "oracle", "environment": {},
@@ -302,7 +305,7 @@ def markdown(rows, explained):
         study.table(["where", "kind", "before", "after", "why"], unseen) if unseen else "None.\n",
         "## Seen\n",
         study.table(["where", "kind", "before", "after", "by"], seen),
-        f"Made by `scripts/studies/faults.py` with seed {seeds} at commit {commits}.", ""])
+        f"Made by `scripts/trials/faults.py` with seed {seeds} at commit {commits}.", ""])
 
 
 # ---- the study
