@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""scripts/studies/faults.py: which faults are drawn, how they are put in, and the page; nothing is built."""
+"""scripts/trials/faults.py: which faults are drawn, how they are put in, and the page; nothing is built."""
 import itertools
 import tempfile
 import unittest
 from pathlib import Path
 
-from scripts_folder import STUDIES, run_here
+from scripts_folder import SCRIPTS, run_here
 
-from studies import fault_kinds, faults
+from trials import fault_kinds, faults
 
 CODE = """// a < b + 1
 #include <vector>
@@ -69,7 +69,7 @@ class Kinds(unittest.TestCase):
     def test_sources(self):
         self.assertTrue(fault_kinds.is_source("kernels/model/ball.cpp"))
         self.assertTrue(fault_kinds.is_source("scripts/test.sh"))
-        for name in ("verify/tests/a.cpp", "bench/a.cpp", "scripts/studies/faults.py", "driver/README.md"):
+        for name in ("verify/tests/a.cpp", "bench/a.cpp", "scripts/trials/faults.py", "driver/README.md"):
             self.assertFalse(fault_kinds.is_source(name), name)
 
     def test_a_fault_goes_where_its_line_is_now(self):
@@ -102,7 +102,7 @@ class Page(unittest.TestCase):
             faults.write_rows(path, rows)
             self.assertEqual(faults.read_rows(path), rows)
             self.assertEqual([each.name for each in Path(folder).iterdir()], ["faults.csv"])
-            done = run_here(STUDIES / "faults.py", "--table", "--out", folder)
+            done = run_here(SCRIPTS / "trials" / "faults.py", "--table", "--out", folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("| all | 2 | 1 | 0 | 1 | 50 % |", (Path(folder) / "faults.md").read_text())
             path.write_text("seed,number\n1,2\n")
@@ -110,7 +110,7 @@ class Page(unittest.TestCase):
 
     def test_bad_input(self):
         for words, complaint in ((("--faults", "0"), "allowed is 1 or more"), (("--jobs", "0"), "allowed is 1 or more")):
-            done = run_here(STUDIES / "faults.py", *words)
+            done = run_here(SCRIPTS / "trials" / "faults.py", *words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(complaint, done.stderr)
 

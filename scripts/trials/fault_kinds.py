@@ -138,7 +138,7 @@ def floor_of(name):
 def is_source(name):
     """Whether faults are put into that file: not into tests, their scenes and benchmarks, nor into this."""
     return (floor_of(name) in FLOORS and language_of(name) is not None and not name.startswith("verify/tests/")
-            and not name.startswith(("scripts/studies/fault", "verify/oracle/wall_scenes")))
+            and not name.startswith(("scripts/trials/fault", "verify/oracle/wall_scenes")))
 
 
 def put_in(text, fault):
