@@ -14,16 +14,16 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/equivalence_table.hpp"
+#include "driver/output/journal.hpp"
+#include "driver/output/run_directory.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/journal.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
-#include "driver/world/run_directory.hpp"
 #include "kernels/stepping/threads.hpp"
 #include "verify/oracle/equivalence.hpp"
 #include "verify/oracle/oracle.hpp"

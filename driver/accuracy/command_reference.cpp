@@ -17,6 +17,8 @@
 
 #include "driver/accuracy/reference_journal.hpp"
 #include "driver/accuracy/reference_record.hpp"
+#include "driver/output/journal.hpp"
+#include "driver/output/run_directory.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
@@ -25,10 +27,8 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 #include "driver/world/progress.hpp"
-#include "driver/world/run_directory.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 

@@ -1,7 +1,7 @@
 // Reference solutions in a command's journal.
 #pragma once
 
-#include "driver/world/journal.hpp"
+#include "driver/output/journal.hpp"
 #include "verify/accuracy/reference_pair.hpp"
 
 namespace bounce {

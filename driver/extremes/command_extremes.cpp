@@ -17,13 +17,13 @@
 #include <nlohmann/json.hpp>
 
 #include "driver/extremes/extreme_table.hpp"
+#include "driver/output/journal.hpp"
+#include "driver/output/run_directory.hpp"
 #include "driver/world/commands.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/journal.hpp"
 #include "driver/world/near_miss.hpp"
-#include "driver/world/run_directory.hpp"
 #include "kernels/stepping/threads.hpp"
 
 namespace bounce {

@@ -14,11 +14,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/output/run_directory.hpp"
 #include "driver/scene/scene_file.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
-#include "driver/world/run_directory.hpp"
 
 namespace bounce {
 namespace fs = std::filesystem;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "driver/output/journal.hpp"
 #include "driver/run/checkpoint.hpp"
 #include "driver/run/run_job.hpp"
 #include "driver/scene/load_problem.hpp"
@@ -21,7 +22,6 @@
 #include "driver/world/files.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 
 namespace bounce {

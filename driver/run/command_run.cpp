@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "driver/output/run_directory.hpp"
 #include "driver/run/advice_text.hpp"
 #include "driver/run/run_job.hpp"
 #include "driver/scene/load_problem.hpp"
@@ -18,7 +19,6 @@
 #include "driver/world/input_error.hpp"
 #include "driver/world/interrupt.hpp"
 #include "driver/world/limits.hpp"
-#include "driver/world/run_directory.hpp"
 
 namespace bounce {
 namespace {

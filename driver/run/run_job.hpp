@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "driver/output/run_directory.hpp"
 #include "driver/run/checkpoint.hpp"
 #include "driver/scene/state_file.hpp"
-#include "driver/world/run_directory.hpp"
 #include "kernels/model/problem.hpp"
 
 namespace bounce {

@@ -15,6 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/output/journal.hpp"
+#include "driver/output/run_directory.hpp"
 #include "driver/scene/load_problem.hpp"
 #include "driver/scene/memory_check.hpp"
 #include "driver/scene/scene_file.hpp"
@@ -26,11 +28,9 @@
 #include "driver/world/console.hpp"
 #include "driver/world/files.hpp"
 #include "driver/world/interrupt.hpp"
-#include "driver/world/journal.hpp"
 #include "driver/world/limits.hpp"
 #include "driver/world/origin.hpp"
 #include "driver/world/progress.hpp"
-#include "driver/world/run_directory.hpp"
 #include "kernels/model/method.hpp"
 #include "kernels/plan/plan.hpp"
 #include "verify/vibrations/stability_limit.hpp"

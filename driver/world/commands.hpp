@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "driver/world/journal.hpp"
+#include "driver/world/invocation.hpp"
 
 namespace bounce {
 

@@ -166,10 +166,9 @@ TEST(Accuracy, StopsWhenAsked) {
   const Scene scene = impact_scene();
   const std::vector<Setting> settings{{"listing", Contact::listing, 20},
                                       {"listing", Contact::listing, 30}};
-  EXPECT_FALSE(
-      measure_accuracy(scene, {}, settings, sampling, impact_reference(), 1, [](std::size_t, const AccuracyRow&) {
-        return false;
-      }).has_value());
+  EXPECT_FALSE(measure_accuracy(scene, {}, settings, sampling, impact_reference(), 1,
+                                [](std::size_t, const AccuracyRow&) { return false; })
+                   .has_value());
 }
 
 TEST(Accuracy, SettingsCoverTheDecades) {

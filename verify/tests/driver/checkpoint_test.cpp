@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "driver/output/run_directory.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
-#include "driver/world/run_directory.hpp"
 #include "verify/watch/ledger.hpp"
 #include "verify/watch/margin.hpp"
 

@@ -20,15 +20,10 @@
 #include <vector>
 
 #include "driver/world/files.hpp"
+#include "driver/world/invocation.hpp"
 #include "verify/watch/words.hpp"
 
 namespace bounce {
-
-/// What was asked of a command, and where.
-struct Invocation {
-  std::vector<std::string> arguments;  ///< of the command line, without the program
-  std::filesystem::path folder;        ///< in which it ran
-};
 
 class Journal {
  public:

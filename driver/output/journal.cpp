@@ -1,4 +1,4 @@
-#include "driver/world/journal.hpp"
+#include "driver/output/journal.hpp"
 
 #include <charconv>
 #include <iterator>
@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "driver/output/run_directory.hpp"
 #include "driver/world/console.hpp"
 #include "driver/world/input_error.hpp"
 #include "driver/world/origin.hpp"
-#include "driver/world/run_directory.hpp"
 
 namespace bounce {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-#include "driver/world/run_directory.hpp"
+#include "driver/output/run_directory.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
