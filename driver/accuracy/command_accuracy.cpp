@@ -199,6 +199,7 @@ int accuracy(const Options& options, const CommandContext& context) {
     rows = run_all(study, reference, options.threads, journal);
   } catch (const Stopped&) {
   } catch (const ReferenceError& error) {
+    journal.finish();
     throw InputError(fmt::format("this scene has no reference: {}", error.what()));
   }
   if (!rows) return stopped();

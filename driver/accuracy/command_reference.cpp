@@ -166,6 +166,9 @@ int reference(const Options& options, const CommandContext& context) {
   try {
     record = make_reference_record(problem, solve(problem, times, settings, disturbance, journal),
                                    disturbance);
+  } catch (const InputError&) {
+    journal.finish();
+    throw;
   } catch (const Interrupted&) {
     say_stopped(journal.size(), solutions, journal, options.directory());
     return interrupt_exit_code();

@@ -92,6 +92,11 @@ Journal::Journal(const fs::path& output, const Invocation& asked, const std::str
   file_->flush();
 }
 
+Journal::~Journal() {
+  std::error_code ignored;
+  if (file_ && size() == 0) fs::remove(path_, ignored);
+}
+
 // Opens what is there, if it is of this task, at the end of what can be believed.
 void Journal::read(const std::string& head, bool replace) {
   const std::string text = read_bytes(path_.string());

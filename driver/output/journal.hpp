@@ -32,6 +32,10 @@ class Journal {
   /// there and may not be dropped (`replace`).
   Journal(const std::filesystem::path& output, const Invocation& asked, const std::string& task,
           bool replace);
+  /// Leaves the file for the same command to go on with, if there is a case in it.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
 
   /// Cases there are, found and added.
   [[nodiscard]] std::size_t size() const { return found_.size() + added_; }
@@ -63,7 +67,7 @@ class Journal {
   }
   /// Where it is, "" if nowhere.
   [[nodiscard]] std::string name() const { return path_.string(); }
-  /// The command has done all it was asked: removes the file.
+  /// The command has done all it was asked, or never can: removes the file.
   void finish();
 
  private:
