@@ -7,7 +7,7 @@ set -euo pipefail
 invoked=$(realpath "$0")
 if [ "${1-}" = --compare ]; then # A and B are named from where the user stands
   shift
-  exec "$(dirname "$invoked")/studies/bench_compare.py" "$@"
+  exec "$(dirname "$invoked")/bench/bench_compare.py" "$@"
 fi
 cd "$(dirname "$invoked")/.."
 source scripts/studies/study.sh
@@ -21,7 +21,7 @@ measure() {
   local name=$1 program=$2 table=$3
   shift 3
   benchmark "$program" "$out/.$name.json" --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true "$@"
-  "scripts/studies/$table" "$out/.$name.json" > "$out/.$name.md"
+  "scripts/bench/$table" "$out/.$name.json" > "$out/.$name.md"
   mv "$out/.$name.json" "$out/$name.json"
   mv "$out/.$name.md" "$out/$name.md"
 }

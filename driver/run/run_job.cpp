@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -171,6 +173,12 @@ void print_summary(const RunRecord& record, const fs::path& directory) {
   if (!plan.left_out.empty()) print_out("left out: {}\n", fmt::join(plan.left_out, ", "));
   print_out("{}: {} of {} steps, t = {:.9g} s\n", name_of(result.status), result.step,
             record.steps_asked, static_cast<double>(result.step) * record.scene.time.step);
+  // A step that is rounded to single precision is up to 6e-8 of it longer or shorter.
+  const double nominal = record.findings.time_step, stored = record.findings.integrated_step;
+  if (std::abs(stored - nominal) > 4.0 * std::numeric_limits<double>::epsilon() * nominal) {
+    print_out("        the steps, as they are stored, add up to {:.12g} s\n",
+              static_cast<double>(result.step) * stored);
+  }
   if (const auto& margin = record.margin) {
     const double time = static_cast<double>(margin->step) * record.scene.time.step;
     print_out("greatest part of the stable step used: {}\n", describe(*margin, time));

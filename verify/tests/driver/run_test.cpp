@@ -59,7 +59,7 @@ Words to_the_wall(const Words& more) {
 TEST_F(DriverRunTest, ARunTellsItsBounceAndItsLedgers) {
   ASSERT_EQ(run(to_the_wall({"--out", "r"})), 0) << err();
   for (const char* word : {"energy: ", " lost to the walls (from samples)", "bounce: contact from ",
-                           "greatest flattening 0.", "ledgers close on the ", "momentum y"}) {
+                           "greatest flattening ", "ledgers close on the ", "momentum y"}) {
     EXPECT_NE(out().find(word), std::string::npos) << word << " not in: " << out();
   }
   const std::string json = contents(folder_ / "r/run.json");

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from scripts_folder import SCRIPTS, STUDIES, has_numpy, run_here
 
-from studies import bench_compare
+from bench import bench_compare
 
 MEASURE = "oracle -O3 -march=native/threads:1"
 RING = "ring avx2/threads:1"
@@ -197,7 +197,7 @@ class Slim(unittest.TestCase):
         once = self.path.read_text()
         self.assertEqual(self.run_script("slim.py", self.path).returncode, 0)
         self.assertEqual(self.path.read_text(), once)
-        text = self.run_script("bench_table.py", self.path).stdout
+        text = self.run_script("../bench/bench_table.py", self.path).stdout
         self.assertIn("of what the program no longer has: an ensemble of balls, one a lane; single and", text)
         self.assertIn("| ring avx2 | example-2 | 1 | - |", text)
 
@@ -205,7 +205,7 @@ class Slim(unittest.TestCase):
         self.write("2026-11-29T00:00:00+00:00")
         self.assertEqual(self.run_script("slim.py", self.path).returncode, 0)
         self.assertEqual(len(json.loads(self.path.read_text())["benchmarks"]), 21)
-        self.assertNotIn("no longer", self.run_script("bench_table.py", self.path).stdout)
+        self.assertNotIn("no longer", self.run_script("../bench/bench_table.py", self.path).stdout)
 
     def test_the_comparison_reads_both_forms(self):
         self.write("2026-11-29T00:00:00+00:00")

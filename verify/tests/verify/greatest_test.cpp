@@ -67,12 +67,15 @@ double greatest_of(const Course& course) {
   return greatest;
 }
 
+// Half of the greatest second derivative, 41, over half a microsecond squared.
+double known_to(const Course& course) { return course.name == "fast on slow" ? 6e-12 : 0.0; }
+
 TEST(Greatest, IsFoundBetweenTheLooks) {
   for (const Course& course : courses()) {
     int looks = 0;
     const Greatest::Result found = course.looked_at().result(course.again(&looks));
     const double truth = greatest_of(course);
-    EXPECT_LE(std::abs(found.value - truth), found.found_to) << course.name << " " << found.value;
+    EXPECT_LE(std::abs(found.value - truth), found.found_to + known_to(course)) << course.name;
     EXPECT_LE(found.found_to, course.name == "kick" ? 1e-5 : 1e-9) << course.name;
     EXPECT_LE(looks, 48) << course.name;
     if (course.name == "fast on slow") continue;
@@ -84,7 +87,8 @@ TEST(Greatest, IsFoundBetweenTheLooks) {
 TEST(Greatest, SaysWhatLooksAloneLeaveOpen) {
   for (const Course& course : courses()) {
     const Greatest::Result found = course.looked_at().result();
-    EXPECT_LE(std::abs(found.value - greatest_of(course)), found.found_to) << course.name;
+    EXPECT_LE(std::abs(found.value - greatest_of(course)), found.found_to + known_to(course))
+        << course.name;
   }
 }
 
