@@ -59,9 +59,7 @@ bool same_bits(const State& a, const State& b) { return state_hash(a) == state_h
 // by this kernel with this scene, must give the state beside it.
 void take_held_stage(const RunJob& job, const Plan& plan, Stepper& stepper) {
   const std::string& file = job.settings.initial;
-  if (file.empty() || job.from || job.settings.quiet) {
-    if (!job.held || job.from) return;
-  }
+  if (file.empty() || job.from) return;
   const auto note = [&](const char* why) {
     if (job.settings.quiet) return;
     print_err("bounce: note: {}: {}; \"bounce resume DIR --t-end T\" does\n", file, why);
