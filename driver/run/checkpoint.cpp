@@ -45,7 +45,7 @@ class Checksum {
 
 std::vector<std::uint64_t> words_of(std::string_view bytes) {
   std::vector<std::uint64_t> words(bytes.size() / 8);
-  std::memcpy(words.data(), bytes.data(), 8 * words.size());
+  if (!words.empty()) std::memcpy(words.data(), bytes.data(), 8 * words.size());
   return words;
 }
 

@@ -160,7 +160,7 @@ class WordReader {
     bool any = false;
     get(any);
     value.reset();
-    if (any) get(value.emplace());
+    if (any) get(value.emplace(T{}));  // (of a class within a class clang takes no empty emplace())
   }
   template <class Values>
   void get_all(Values& values) {
