@@ -32,7 +32,7 @@ if ! printf '#include <omp.h>\nextern "C" int LLVMFuzzerTestOneInput(const char*
   echo 'fuzz.sh: skipped: clang++ or its libraries are not here: apt-get install clang libclang-rt-14-dev libomp-14-dev'
   exit 3
 fi
-scripts/build.sh fuzz
+scripts/build.sh fuzz fuzz_targets
 
 # Runs one target; what it has to say goes into a line, and, if it failed, its last lines with it.
 run() {

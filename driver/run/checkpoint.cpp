@@ -119,9 +119,9 @@ std::size_t end_of_head(std::string_view bytes, const std::string& name) {
       bytes.substr(first_words.size(), std::min(line, bytes.size()) - first_words.size());
   if (number != fmt::format("{}", format)) {
     throw InputError(fmt::format(
-        "{}: is a checkpoint in format {:.20}; this program reads format {} alone: allowed is the "
+        "{}: is a checkpoint in format {}; this program reads format {} alone: allowed is the "
         "program that wrote it",
-        name, number, format));
+        name, number.substr(0, 20), format));
   }
   const std::size_t end = bytes.find('\n', line + 1);
   return end == std::string_view::npos ? bytes.size() : end + 1;
@@ -215,8 +215,9 @@ Checkpoint read_checkpoint(const std::string& bytes, const std::string& name, bo
   try {
     checkpoint.head = read_head(std::string_view(bytes).substr(line, end - line));
   } catch (const std::exception& error) {
-    throw InputError(
-        fmt::format("{}: what it says of its run cannot be read: {}", name, error.what()));
+    throw InputError(  // which may quote all that it read
+        fmt::format("{}: what it says of its run cannot be read: {}", name,
+                    std::string_view(error.what()).substr(0, 200)));
   }
   const Origin origin = find_origin();
   if (checkpoint.head.commit != origin.commit && !any_commit) {

@@ -141,6 +141,16 @@ TEST_F(CheckpointTest, ForeignNewerAndOtherProgramsAreNamed) {
   EXPECT_EQ(read_checkpoint(bytes(), "c", true).head.commit, "0123456789ab");
 }
 
+TEST_F(CheckpointTest, AHeadThatIsNoneIsNamedBriefly) {
+  std::string bytes = "bounce checkpoint 1\n\"" + std::string(3986, '\xa6') + "\n";
+  ASSERT_EQ(bytes.size() % 8, 0U);
+  bytes.resize(bytes.size() + 16);
+  seal_checkpoint(bytes);
+  EXPECT_NE(refusal(bytes).find("what it says of its run cannot be read"), std::string::npos);
+  EXPECT_LT(refusal(bytes).size(), 1500U);  // 200 bytes, each shown as \xa6
+  EXPECT_LT(refusal("bounce checkpoint " + std::string(4000, '\xa6')).size(), 300U);
+}
+
 TEST_F(CheckpointTest, AScenesHashKnowsAllButItsEnd) {
   Scene scene;
   const std::uint64_t hash = hash_of(scene);
