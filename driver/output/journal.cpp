@@ -29,11 +29,10 @@ std::string dump(const Json& json) {
 }
 
 std::uint64_t checksum(const std::string& key, const std::vector<std::uint64_t>& words) {
-  std::uint64_t sum = 0xcbf29ce484222325U;  // FNV-1a, a word at a time
-  const auto add = [&sum](std::uint64_t word) { sum = (sum ^ word) * 0x100000001b3U; };
-  for (const char c : key) add(static_cast<unsigned char>(c));
-  for (const std::uint64_t word : words) add(word);
-  return sum;
+  Checksum sum;
+  sum.add(key);
+  sum.add(std::span(words));
+  return sum.value();
 }
 
 std::string hex(const std::vector<std::uint64_t>& words) {

@@ -30,19 +30,6 @@ constexpr int format = 1;
 constexpr std::string_view first_words = "bounce checkpoint ";
 constexpr const char* before_name = "checkpoint.before";
 
-// FNV-1a, a word at a time: one that is changed always changes the sum.
-class Checksum {
- public:
-  void add(std::uint64_t word) { sum_ = (sum_ ^ word) * 0x100000001b3U; }
-  void add(std::span<const std::uint64_t> words) {
-    for (const std::uint64_t word : words) add(word);
-  }
-  [[nodiscard]] std::uint64_t value() const { return sum_; }
-
- private:
-  std::uint64_t sum_ = 0xcbf29ce484222325U;
-};
-
 std::vector<std::uint64_t> words_of(std::string_view bytes) {
   std::vector<std::uint64_t> words(bytes.size() / 8);
   if (!words.empty()) std::memcpy(words.data(), bytes.data(), 8 * words.size());
@@ -181,7 +168,7 @@ void keep_before(const fs::path& now, const fs::path& before) {
 std::uint64_t hash_of(Scene scene) {
   scene.time.end = scene.time.step;
   Checksum sum;
-  for (const char c : to_toml(scene)) sum.add(static_cast<unsigned char>(c));
+  sum.add(to_toml(scene));
   return sum.value();
 }
 

@@ -144,7 +144,7 @@ RunHooks make_hooks(const RunJob& job, const Schedule& schedule, Stepper& steppe
 }
 
 // Runs and fills the directory with all that is written on the way.
-void simulate(const RunJob& job, RunDirectory& directory, Stepper& stepper, const WallBooks* books,
+void simulate(RunJob& job, RunDirectory& directory, Stepper& stepper, const WallBooks* books,
               RunRecord& record) {
   std::optional<WordReader> from;
   if (job.from) from.emplace(job.from->words);
@@ -155,6 +155,7 @@ void simulate(const RunJob& job, RunDirectory& directory, Stepper& stepper, cons
   Progress progress(::isatty(STDERR_FILENO) != 0 && !job.settings.quiet, schedule.end(),
                     job.scene.time.step);
   Checkpoints checkpoints(job, record.plan, directory, writer);
+  job.problem.initial = State();  // the stepper holds the particles now
   const RunHooks hooks = make_hooks(job, schedule, stepper, writer, progress, checkpoints);
   record.result = run_loop(stepper, job.problem, schedule, hooks, from ? &*from : nullptr);
   record.findings = writer.finish(stepper, record.result.status == RunStatus::unstable);

@@ -18,6 +18,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -31,6 +32,22 @@ namespace bounce {
 class WordsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// FNV-1a, a word at a time: one word that is changed always changes the sum.
+class Checksum {
+ public:
+  void add(std::uint64_t word) { sum_ = (sum_ ^ word) * 0x100000001b3U; }
+  void add(std::span<const std::uint64_t> words) {
+    for (const std::uint64_t word : words) add(word);
+  }
+  void add(std::string_view text) {
+    for (const char c : text) add(std::uint64_t{static_cast<unsigned char>(c)});
+  }
+  [[nodiscard]] std::uint64_t value() const { return sum_; }
+
+ private:
+  std::uint64_t sum_ = 0xcbf29ce484222325U;
 };
 
 template <class Words>
