@@ -1,8 +1,8 @@
 // The cases that a long command has done, so that it goes on with them when it is stopped and asked
 // the same again.
 //
-// The file NAME.journal stands beside the output NAME while the command is at work: a line that says
-// what was asked, then a line a case, added as soon as it is done,
+// The file NAME.journal stands beside the output NAME while the command is at work: a line that
+// says what was asked, then a line a case, added as soon as it is done,
 //
 //   {"journal":1,"arguments":["stability", ...],"folder":"/...","task":{...}}
 //   ["leapfrog,flight,dt,16000","0000...",1234]          key, 64-bit words, checksum of both

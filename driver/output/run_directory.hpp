@@ -45,9 +45,9 @@ class OutputLock {
 class RunDirectory {
  public:
   /// To be made before the work begins. Throws InputError if `target` exists and may not be
-  /// replaced, or holds no run and would be lost, if another process is at work for it, if NAME.part
-  /// is a stopped run that can be gone on with (`replace` drops it) or is no run, or if a directory
-  /// cannot be made there.
+  /// replaced, or holds no run and would be lost, if another process is at work for it, if
+  /// NAME.part is a stopped run that can be gone on with (`replace` drops it) or is no run, or if a
+  /// directory cannot be made there.
   /// `marker`: the file by which a directory that may be replaced is known.
   RunDirectory(const std::filesystem::path& target, bool replace, std::string marker = "run.json");
   /// Goes on in the directory of a stopped run: NAME.part if there is one that can be gone on with,

@@ -6,8 +6,8 @@
 //   ...                          64-bit words, little endian: all numbers that the run goes on from
 //   number of words before this, checksum of all words before this
 //
-//  1. A checkpoint is whole or absent. It is written under a name made new and, from the run's first
-//     second on, on the disk before it is renamed: a power cut leaves the one before.
+//  1. A checkpoint is whole or absent. It is written under a name made new and, from the run's
+//     first second on, is on the disk before it is renamed: a power cut leaves the one before.
 //  2. What the run has written to other files stays there. The checkpoint has their lengths at that
 //     time; what was written later is cut off and written once more.
 //  3. It is believed only if its checksum is right, and gone on with only by the program that wrote
@@ -64,8 +64,8 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointHead&
 /// reason: foreign, newer, cut off, damaged, or of another program (which `any_commit` lets pass).
 Checkpoint read_checkpoint(const std::string& bytes, const std::string& name, bool any_commit);
 
-/// Makes the last two words of a checkpoint's bytes its number of words and its checksum; for tests,
-/// which change what is before them. Nothing below two words.
+/// Makes the last two words of a checkpoint's bytes its number of words and its checksum; for
+/// tests, which change what is before them. Nothing below two words.
 void seal_checkpoint(std::string& bytes);
 
 /// That of a run's directory; `before`: the one before it. Where the checkpoint is refused and the

@@ -55,8 +55,8 @@ RunStepper make_run_stepper(const RunJob& job, const Plan& plan) {
 
 bool same_bits(const State& a, const State& b) { return state_hash(a) == state_hash(b); }
 
-// A start that a run wrote goes on as that run would have, if it is this run's: its held stage, done
-// by this kernel with this scene, must give the state beside it.
+// A start that a run wrote goes on as that run would have, if it is this run's: its held stage,
+// done by this kernel with this scene, must give the state beside it.
 void take_held_stage(const RunJob& job, const Plan& plan, Stepper& stepper) {
   const std::string& file = job.settings.initial;
   if (file.empty() || job.from) return;

@@ -56,12 +56,12 @@ struct RunResult {
 /// between two rows of monitor.csv in the paper's examples. They take about half a second.
 std::int64_t steps_to_look_at(std::size_t particles);
 
-/// Runs from the stepper's step 0, or from where the words say that a run stood; the stepper is then
-/// put there. When the watch refuses a state, goes back to the last one it
-/// passed and looks at every step from there; runs repeat to the bit. If that is more than
-/// steps_to_look_at, it first halves the way: a passed state takes the place of the last good one,
-/// a refused one that of the end. Energy that swings could be refused, passed and refused again, so
-/// the first refused step is exact from `looked_from` on, and no earlier one is known.
+/// Runs from the stepper's step 0, or from where the words say that a run stood; the stepper is
+/// then put there. When the watch refuses a state, goes back to the last one it passed and looks at
+/// every step from there; runs repeat to the bit. If that is more than steps_to_look_at, it first
+/// halves the way: a passed state takes the place of the last good one, a refused one that of the
+/// end. Energy that swings could be refused, passed and refused again, so the first refused step is
+/// exact from `looked_from` on, and no earlier one is known.
 RunResult run_loop(Stepper& stepper, const Problem& problem, const Schedule& schedule,
                    const RunHooks& hooks, WordReader* from = nullptr);
 

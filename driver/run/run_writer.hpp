@@ -17,8 +17,9 @@ namespace bounce {
 class RunWriter {
  public:
   /// Writes into `folder`. `books`: the stepper's, or null, then there is no ledger.csv. `figures`:
-  /// the run's gauge. Problem and books have to outlive it. `from`: goes on with the files of a run that was written down, as the
-  /// words have it; throws OutputError if they are shorter than they were then.
+  /// the run's gauge. Problem and books have to outlive it. `from`: goes on with the files of a run
+  /// that was written down, as the words have it; throws OutputError if they are shorter than they
+  /// were then.
   RunWriter(const Scene& scene, const Problem& problem, std::filesystem::path folder,
             const WallBooks* books, BounceGauge figures, WordReader* from = nullptr);
 
